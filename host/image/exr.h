@@ -1,0 +1,36 @@
+// OpenEXR files: reading what a comparison or texture needs, writing what the renderer makes.
+#pragma once
+
+#include "host/image/image.h"
+#include "host/scene/scene.h"
+
+#include <cstddef>
+#include <string>
+
+namespace parhelion {
+
+/// Reads an OpenEXR file: scanline or tiled (the full-resolution level), half, float or uint
+/// components, any compression, one part or several. Values come as stored; chromaticities are not
+/// applied. Luminance-chroma files come as R, G, B. The channels of a file of several parts are
+/// named part.channel. Metadata: the string, int, float and double attributes that are not part of
+/// the format itself.
+/// Throws InputError for a file that is damaged, incomplete or absurdly large, and for deep data,
+/// subsampled channels, parts of different windows, and uint values of 2^24 and more (a float
+/// cannot hold each of them).
+Image read_exr(const std::string& file);
+
+struct ExrOptions {
+    ComponentFormat component = ComponentFormat::float32;
+};
+
+/// Writes scanlines, ZIP compressed, as linear values with Rec. 709 primaries stated. The file
+/// appears whole or not at all, and replaces an older one (check_output is what asks for --force,
+/// before the work and not after it). Returns how many finite values the component format could not
+/// hold (float16: beyond 65504, stored as infinity; uint32: rounded to the nearest integer, outside
+/// its range or not finite, stored as the nearest end, NaN as 0): the caller should say so if not
+/// zero. An int64 beyond 32 bits is stored as its decimal digits, since EXR has no wider integer.
+/// Throws InputError where the folder or the disk refuses.
+[[nodiscard]] std::size_t write_exr(const std::string& file, const Image& image,
+                                    const ExrOptions& options = {});
+
+} // namespace parhelion

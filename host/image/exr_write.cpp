@@ -1,0 +1,165 @@
+// Writing an Image as an OpenEXR file, a band of rows at a time.
+#include "host/error.h"
+#include "host/image/exr.h"
+#include "host/image/output.h"
+
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIntAttribute.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStdIO.h>
+#include <ImfStringAttribute.h>
+#include <half.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+namespace parhelion {
+
+namespace {
+
+constexpr int band_rows = 64; ///< rows converted at a time: a multiple of ZIP's 16
+
+Imf::PixelType pixel_type(ComponentFormat component) {
+    switch (component) {
+    case ComponentFormat::float16:
+        return Imf::HALF;
+    case ComponentFormat::float32:
+        return Imf::FLOAT;
+    case ComponentFormat::uint32:
+        return Imf::UINT;
+    }
+    throw std::invalid_argument("unknown component format");
+}
+
+std::size_t byte_size(Imf::PixelType type) { return type == Imf::HALF ? 2 : 4; }
+
+void check_image(const Image& image) {
+    if (image.width < 1 || image.height < 1 || image.full_width < 1 || image.full_height < 1)
+        throw std::invalid_argument("an image needs at least one pixel");
+    if (image.channels.empty()) throw std::invalid_argument("an image needs at least one channel");
+    for (const Channel& channel : image.channels)
+        if (channel.values.size() != image.pixel_count())
+            throw std::invalid_argument("channel " + channel.name + " has a wrong length");
+}
+
+void insert_metadata(Imf::Header& header, const std::string& name, const MetadataValue& value) {
+    if (name.empty() || name.size() > 255 || header.find(name) != header.end())
+        throw std::invalid_argument("metadata name '" + name + "' is empty, too long or taken");
+    if (const auto* text = std::get_if<std::string>(&value)) {
+        header.insert(name, Imf::StringAttribute(*text));
+    } else if (const auto* number = std::get_if<double>(&value)) {
+        header.insert(name, Imf::DoubleAttribute(*number));
+    } else {
+        const std::int64_t integer = std::get<std::int64_t>(value);
+        if (integer == static_cast<int>(integer))
+            header.insert(name, Imf::IntAttribute(static_cast<int>(integer)));
+        else
+            header.insert(name, Imf::StringAttribute(std::to_string(integer)));
+    }
+}
+
+Imf::Header make_header(const Image& image, Imf::PixelType type) {
+    using Imath::Box2i;
+    using Imath::V2i;
+    const Box2i display(V2i(0, 0), V2i(image.full_width - 1, image.full_height - 1));
+    const V2i corner(image.offset_x, image.offset_y);
+    const Box2i data(corner, corner + V2i(image.width - 1, image.height - 1));
+    Imf::Header header(display, data, 1.0f, Imath::V2f(0, 0), 1.0f, Imf::INCREASING_Y,
+                       Imf::ZIP_COMPRESSION);
+    Imf::addChromaticities(header, Imf::Chromaticities()); // the default is Rec. 709 with D65
+    for (const Channel& channel : image.channels)
+        header.channels().insert(channel.name, Imf::Channel(type));
+    for (const auto& [name, value] : image.metadata)
+        insert_metadata(header, name, value);
+    return header;
+}
+
+/// Stores the value at `out`; false where the type cannot hold it (see write_exr).
+bool store(Imf::PixelType type, float value, char* out) {
+    if (type == Imf::FLOAT) {
+        std::memcpy(out, &value, sizeof value);
+        return true;
+    }
+    if (type == Imf::HALF) {
+        const Imath::half rounded(value);
+        const auto bits = rounded.bits();
+        std::memcpy(out, &bits, sizeof bits);
+        return rounded.isFinite() || !std::isfinite(value);
+    }
+    constexpr double largest = std::numeric_limits<std::uint32_t>::max();
+    const double rounded = std::nearbyint(static_cast<double>(value));
+    const bool fits = rounded >= 0.0 && rounded <= largest;
+    const double stored = std::isnan(rounded) ? 0.0 : std::clamp(rounded, 0.0, largest);
+    const auto integer = static_cast<std::uint32_t>(stored);
+    std::memcpy(out, &integer, sizeof integer);
+    return fits;
+}
+
+/// Converts and writes all rows; returns the number of values the type could not hold.
+std::size_t write_rows(Imf::OutputFile& output, const Image& image, Imf::PixelType type) {
+    const std::size_t bytes = byte_size(type);
+    const std::size_t row_bytes = bytes * image.width;
+    std::vector<std::vector<char>> bands(image.channels.size(),
+                                         std::vector<char>(row_bytes * band_rows));
+    std::size_t misfits = 0;
+    for (int first = 0; first < image.height; first += band_rows) {
+        const int rows = std::min(band_rows, image.height - first);
+        Imf::FrameBuffer frame;
+        for (std::size_t c = 0; c < image.channels.size(); ++c) {
+            const float* source =
+                image.channels[c].values.data() + static_cast<std::size_t>(first) * image.width;
+            const std::size_t count = static_cast<std::size_t>(rows) * image.width;
+            for (std::size_t i = 0; i < count; ++i)
+                misfits += !store(type, source[i], bands[c].data() + i * bytes);
+            frame.insert(image.channels[c].name,
+                         Imf::Slice::Make(type, bands[c].data(),
+                                          Imath::V2i(image.offset_x, image.offset_y + first),
+                                          image.width, rows, bytes, row_bytes));
+        }
+        output.setFrameBuffer(frame);
+        output.writePixels(rows);
+    }
+    return misfits;
+}
+
+std::size_t write_stream(const std::string& temporary, const Image& image, Imf::PixelType type) {
+    const Imf::Header header = make_header(image, type);
+    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+    if (!stream) throw InputError(std::strerror(errno));
+    std::size_t misfits = 0;
+    {
+        Imf::StdOFStream sink(stream, temporary.c_str());
+        Imf::OutputFile output(sink, header);
+        misfits = write_rows(output, image, type);
+    } // writes the line offset table and hides any failure to do so, hence the check below
+    stream.close();
+    if (!stream) throw InputError(std::strerror(errno));
+    return misfits;
+}
+
+} // namespace
+
+std::size_t write_exr(const std::string& file, const Image& image, const ExrOptions& options) {
+    check_image(image);
+    PendingFile pending(file);
+    std::size_t misfits = 0;
+    try {
+        misfits = write_stream(pending.temporary_name(), image, pixel_type(options.component));
+    } catch (const std::invalid_argument&) {
+        throw; // a mistake of the caller, not of the disk
+    } catch (const std::exception& error) {
+        throw InputError(file + ": cannot write: " + error.what());
+    }
+    pending.commit();
+    return misfits;
+}
+
+} // namespace parhelion
