@@ -1,0 +1,264 @@
+// Reading OpenEXR files of unknown origin into an Image: everything is checked before it is
+// trusted.
+#include "host/error.h"
+#include "host/image/exr.h"
+
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFloatAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputPart.h>
+#include <ImfIntAttribute.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfPartType.h>
+#include <ImfRgbaFile.h>
+#include <ImfStringAttribute.h>
+#include <ImfTileDescription.h>
+#include <ImfVersion.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <new>
+#include <tuple>
+#include <utility>
+
+namespace parhelion {
+
+namespace {
+
+constexpr std::int64_t largest_edge = 1 << 20;    ///< pixels
+constexpr std::int64_t largest_image = 1 << 30;   ///< values in all channels together: 4 GiB
+constexpr std::int64_t largest_tile = 1 << 26;    ///< values in all channels of one tile
+constexpr std::int64_t most_deflate_gain = 1032;  ///< no deflate stream grows by more
+constexpr int band_rows = 256;                    ///< the most rows any compression puts in a chunk
+constexpr float first_inexact_uint = 16777216.0f; ///< 2^24
+
+struct Source {
+    std::string file;
+    std::int64_t bytes = 0;
+
+    [[noreturn]] void refuse(const std::string& what) const {
+        throw InputError(file + ": " + what);
+    }
+};
+
+Source open_source(const std::string& file) {
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    if (!std::filesystem::exists(status)) throw InputError(file + ": no such file");
+    if (!std::filesystem::is_regular_file(status)) throw InputError(file + ": not a regular file");
+    const Source source{file, static_cast<std::int64_t>(std::filesystem::file_size(file))};
+    std::array<char, 4> magic{};
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) source.refuse(std::string("cannot open: ") + std::strerror(errno));
+    stream.read(magic.data(), magic.size());
+    if (!stream || !Imf::isImfMagic(magic.data())) source.refuse("not an OpenEXR file");
+    return source;
+}
+
+std::int64_t channel_count(const Imf::Header& header) {
+    std::int64_t count = 0;
+    for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
+        ++count;
+    return count;
+}
+
+std::string box_text(const Imath::Box2i& box) {
+    return "[" + std::to_string(box.min.x) + "," + std::to_string(box.min.y) + " to " +
+           std::to_string(box.max.x) + "," + std::to_string(box.max.y) + "]";
+}
+
+std::pair<std::int64_t, std::int64_t> box_size(const Imath::Box2i& box) {
+    return {std::int64_t(box.max.x) - box.min.x + 1, std::int64_t(box.max.y) - box.min.y + 1};
+}
+
+/// Refuses windows and tiles that are empty or too large before anything is allocated for them.
+void check_size(const Source& source, const Imf::Header& header) {
+    const std::int64_t channels = channel_count(header);
+    if (channels == 0) source.refuse("has no channels");
+    for (const Imath::Box2i& box : {header.dataWindow(), header.displayWindow()}) {
+        const auto [width, height] = box_size(box);
+        if (width < 1 || height < 1 || width > largest_edge || height > largest_edge)
+            source.refuse("window " + box_text(box) + " is empty or has an edge above " +
+                          std::to_string(largest_edge) + " pixels");
+    }
+    const auto [width, height] = box_size(header.dataWindow());
+    if (width * height > largest_image / channels)
+        source.refuse("data window " + box_text(header.dataWindow()) + " with " +
+                      std::to_string(channels) + " channels is above " +
+                      std::to_string(largest_image) + " values");
+    if (header.hasTileDescription()) {
+        const Imf::TileDescription& tile = header.tileDescription();
+        if (tile.xSize == 0 || tile.ySize == 0 || tile.xSize > largest_edge ||
+            tile.ySize > largest_edge ||
+            std::int64_t(tile.xSize) * tile.ySize > largest_tile / channels)
+            source.refuse("tiles of " + std::to_string(tile.xSize) + "x" +
+                          std::to_string(tile.ySize) + " pixels are empty or too large");
+    }
+}
+
+bool is_luminance_chroma(const Imf::Header& header) {
+    const Imf::ChannelList& channels = header.channels();
+    return channels.findChannel("Y") && channels.findChannel("RY") && channels.findChannel("BY");
+}
+
+void check_part(const Source& source, const Imf::MultiPartInputFile& input, int part) {
+    const Imf::Header& header = input.header(part);
+    const std::string where = input.parts() > 1 ? "part " + std::to_string(part) + ": " : "";
+    if (header.hasType() && Imf::isDeepData(header.type()))
+        source.refuse(where + "deep data is not supported");
+    check_size(source, header);
+    if (header.dataWindow() != input.header(0).dataWindow() ||
+        header.displayWindow() != input.header(0).displayWindow())
+        source.refuse(where + "windows that differ from those of part 0 are not supported");
+    if (!input.partComplete(part)) source.refuse(where + "incomplete: pixels are missing");
+    if (input.parts() == 1 && is_luminance_chroma(header)) return;
+    for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
+        if (i.channel().xSampling != 1 || i.channel().ySampling != 1)
+            source.refuse(where + "channel " + i.name() +
+                          " is subsampled, which is supported for Y RY BY alone");
+}
+
+Image make_windows(const Imf::Header& header) {
+    const Imath::Box2i data = header.dataWindow(), display = header.displayWindow();
+    Image image;
+    std::tie(image.width, image.height) = box_size(data);
+    std::tie(image.full_width, image.full_height) = box_size(display);
+    image.offset_x = data.min.x - display.min.x;
+    image.offset_y = data.min.y - display.min.y;
+    return image;
+}
+
+/// Attributes the format itself defines for every file; the rest is metadata.
+bool is_structural(const std::string& name) {
+    static const std::array<const char*, 8> names{"name",
+                                                  "type",
+                                                  "version",
+                                                  "view",
+                                                  "chunkCount",
+                                                  "pixelAspectRatio",
+                                                  "screenWindowWidth",
+                                                  "maxSamplesPerPixel"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void read_metadata(const Imf::Header& header, Image& image) {
+    for (auto i = header.begin(); i != header.end(); ++i) {
+        const std::string name = i.name();
+        if (is_structural(name)) continue;
+        const Imf::Attribute* attribute = &i.attribute();
+        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(attribute))
+            image.metadata.emplace_back(name, text->value());
+        else if (const auto* integer = dynamic_cast<const Imf::IntAttribute*>(attribute))
+            image.metadata.emplace_back(name, std::int64_t(integer->value()));
+        else if (const auto* single = dynamic_cast<const Imf::FloatAttribute*>(attribute))
+            image.metadata.emplace_back(name, double(single->value()));
+        else if (const auto* number = dynamic_cast<const Imf::DoubleAttribute*>(attribute))
+            image.metadata.emplace_back(name, number->value());
+    }
+}
+
+/// Reads one part's channels band by band: memory grows with what the file really holds.
+void read_part(const Source& source, Imf::MultiPartInputFile& input, int index,
+               const std::string& prefix, Image& image) {
+    Imf::InputPart part(input, index);
+    const Imf::ChannelList& list = part.header().channels();
+    const Imath::V2i corner = part.header().dataWindow().min;
+    const std::size_t first_channel = image.channels.size();
+    const std::int64_t total = std::int64_t(image.pixel_count()) * channel_count(part.header());
+    const bool plausible = total <= source.bytes * most_deflate_gain;
+    for (auto i = list.begin(); i != list.end(); ++i) {
+        image.channels.push_back({prefix + i.name(), {}});
+        if (plausible) image.channels.back().values.reserve(image.pixel_count());
+    }
+    for (int first = 0; first < image.height; first += band_rows) {
+        const int rows = std::min(band_rows, image.height - first);
+        const std::size_t begin = static_cast<std::size_t>(first) * image.width;
+        const std::size_t end = begin + static_cast<std::size_t>(rows) * image.width;
+        Imf::FrameBuffer frame;
+        std::size_t c = first_channel;
+        for (auto i = list.begin(); i != list.end(); ++i, ++c) {
+            image.channels[c].values.resize(end);
+            frame.insert(i.name(), Imf::Slice::Make(Imf::FLOAT, &image.channels[c].values[begin],
+                                                    Imath::V2i(corner.x, corner.y + first),
+                                                    image.width, rows));
+        }
+        part.setFrameBuffer(frame);
+        part.readPixels(corner.y + first, corner.y + first + rows - 1);
+    }
+    std::size_t c = first_channel;
+    for (auto i = list.begin(); i != list.end(); ++i, ++c) {
+        const std::vector<float>& values = image.channels[c].values;
+        if (i.channel().type == Imf::UINT && std::any_of(values.begin(), values.end(), [](float v) {
+                return v >= first_inexact_uint;
+            }))
+            source.refuse("channel " + image.channels[c].name +
+                          " holds unsigned integers of 2^24 and more, which is not supported");
+    }
+}
+
+/// The library's own conversion from Y RY BY to R G B (A).
+void read_luminance_chroma(const Source& source, bool has_alpha, Image& image) {
+    Imf::RgbaInputFile input(source.file.c_str());
+    const Imath::Box2i window = input.dataWindow();
+    const std::array<const char*, 4> names{"R", "G", "B", "A"};
+    const std::size_t count = has_alpha ? 4 : 3;
+    for (std::size_t c = 0; c < count; ++c)
+        image.channels.push_back({names[c], {}});
+    std::vector<Imf::Rgba> row(image.width);
+    for (int y = window.min.y; y <= window.max.y; ++y) {
+        // Row stride 0: whichever row is read, it is stored in `row`.
+        input.setFrameBuffer(row.data() - window.min.x, 1, 0);
+        input.readPixels(y);
+        for (const Imf::Rgba& pixel : row) {
+            const std::array<float, 4> values{pixel.r, pixel.g, pixel.b, pixel.a};
+            for (std::size_t c = 0; c < count; ++c)
+                image.channels[c].values.push_back(values[c]);
+        }
+    }
+}
+
+Image read_checked(const Source& source) {
+    // A table of chunks that is broken is an error, not something to rebuild by guessing.
+    Imf::MultiPartInputFile input(source.file.c_str(), 0, false);
+    for (int part = 0; part < input.parts(); ++part)
+        check_part(source, input, part);
+    const Imf::Header& header = input.header(0);
+    Image image = make_windows(header);
+    read_metadata(header, image);
+    if (input.parts() == 1 && is_luminance_chroma(header)) {
+        read_luminance_chroma(source, header.channels().findChannel("A") != nullptr, image);
+        return image;
+    }
+    for (int part = 0; part < input.parts(); ++part)
+        read_part(source, input, part,
+                  input.parts() > 1 ? input.header(part).name() + "." : std::string(), image);
+    return image;
+}
+
+} // namespace
+
+Image read_exr(const std::string& file) {
+    const Source source = open_source(file);
+    try {
+        return read_checked(source);
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        source.refuse("not enough memory to read it");
+    } catch (const std::exception& error) {
+        std::string reason = error.what();
+        const std::string opening = "\"" + file + "\". "; // the library names the file as well
+        if (const std::size_t at = reason.find(opening); at != std::string::npos)
+            reason.erase(0, at + opening.size());
+        std::replace(reason.begin(), reason.end(), '\n', ' ');
+        source.refuse("cannot be read as OpenEXR: " + reason);
+    }
+}
+
+} // namespace parhelion
