@@ -1,0 +1,75 @@
+#!/bin/bash
+# Proves that house.sh can fail: in a scratch tree, each offence must be found, and the tree without it must pass.
+set -euo pipefail
+house=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)/house.sh
+scratch=$(mktemp -d)
+trap 'rm -rf -- "$scratch"' EXIT
+failures=0
+
+good_tree() {
+    rm -rf -- "$scratch/tree"
+    mkdir -p "$scratch"/tree/{kernels/{shared,device},host/{scene,cl,bvh,render,image},tests}
+    cd "$scratch/tree"
+    echo '// lane' >kernels/shared/lane.h
+    printf '// math: 1.5 and epsilon and native_sin( in a comment are fine\n/* so is\n 2.5 mad( */\nfloat x = 1.5f + 1e3f + .5f; %s\n' \
+        'Real y = R(2.5); v.s0 = 0x1.0p-24f + 3;' >kernels/shared/math.h
+    echo '#define PI 3.14159265' >>kernels/shared/math.h
+    echo '// bsdf' >kernels/shared/bsdf.h
+    printf '// list\n#include "shared/lane.h"\n#include "shared/math.h"\n#include "shared/bsdf.h"\n' >kernels/shared/shared.h
+    printf '// stage\n#include "shared/shared.h"\n' >kernels/shade.cl
+    for folder in scene cl bvh render image; do echo '// code' >host/$folder/code.cpp; done
+}
+
+# must_find CHECK TEXT LINE FILE: with LINE appended to FILE, CHECK fails and says TEXT.
+must_find() {
+    local output status=0
+    good_tree
+    printf '%b\n' "$3" >>"$4"
+    output=$("$house" "$1" "$scratch/tree") || status=$?
+    if ((status == 0)) || [[ $output != *"$2"* ]]; then
+        echo "not found by $1: '$3' in $4 (exit $status): $output"
+        failures=$((failures + 1))
+    fi
+}
+
+for check in includes numerics files; do
+    good_tree
+    "$house" "$check" "$scratch/tree" || { echo "$check fails on a tree without offences"; exit 1; }
+done
+
+must_find includes "by shared.h only" '#include "shared/math.h"' kernels/shared/bsdf.h
+must_find includes "lists every" '// not listed' kernels/shared/warp.h
+must_find includes "lists every" '#include "shared/math.h"' kernels/shared/shared.h
+must_find includes "floors go upward" '#include "shared/types.h"' kernels/shared/shared.h
+must_find includes "kernels may not" '#include "shade.cl"' kernels/intersect.cl
+must_find includes "kernels may not" '  # include "host/error.h"' kernels/device/film.h
+must_find includes "kernels may not" '#include "../host/error.h"' kernels/device/film.h
+must_find includes "host/scene may not" '#include "host/cl/device.h"' host/scene/code.cpp
+must_find includes "host/cl may not" '#include "host/scene/scene.h"' host/cl/code.cpp
+must_find includes "host/bvh may not" '#include "host/cl/device.h"' host/bvh/code.cpp
+must_find includes "host/bvh may not" '#include "host/render/film.h"' host/bvh/code.cpp
+must_find includes "host/image may not" '#include "host/cl/device.h"' host/image/code.cpp
+must_find includes "host/render may not" '#include "host/commands/render.h"' host/render/code.cpp
+must_find includes "host may not" '#include "../cl/device.h"' host/scene/code.cpp
+must_find numerics "inexact" 'x = native_sin(y);' kernels/shade.cl
+must_find numerics "inexact" 'x = mad(a, b, c);' kernels/shade.cl
+must_find numerics "inexact" 'x = half_sqrt(a);' kernels/shade.cl
+must_find numerics "inexact" 'x = fast_normalize(a);' kernels/shade.cl
+must_find numerics "compiler option" 'o = "-cl-fast-relaxed-math";' host/cl/code.cpp
+must_find numerics "compiler option" 'o = "-cl-mad-enable";' host/cl/code.cpp
+for literal in 1.5 1. .5 1e5 1.5e-3 0x1.8p-3; do
+    must_find numerics "double literal" "x = $literal;" kernels/shade.cl
+    must_find numerics "double literal" "x = $literal*y;" kernels/shared/math.h
+    must_find numerics "double literal" "x = y-$literal" kernels/shared/math.h
+done
+must_find numerics "double literal" '#define HALF_PLUS(x) (x + 0.5)' kernels/shade.cl
+must_find numerics "double literal" '/* c */ x = 0.5; // c' kernels/shade.cl
+must_find numerics "epsilon or clamp" 'float epsilon = 1e-4f;' kernels/shade.cl
+must_find numerics "epsilon or clamp" '#define RAY_EPSILON 3' kernels/shade.cl
+must_find numerics "epsilon or clamp" 'x = clamp(y, 0.f, 1.f);' kernels/shade.cl
+must_find files "opens with a comment" 'int x;' host/new.cpp
+must_find files "opens with a comment" 'int x;' kernels/new.cl
+must_find files "opens with a comment" 'set -e' tests/new.sh
+must_find files "at most 450" "$(printf '//\\n%.0s' {1..450})" host/new.cpp
+echo "$failures offences were not found"
+((failures == 0))

@@ -1,0 +1,159 @@
+#!/bin/bash
+# House rules no compiler checks. Usage: house.sh includes|numerics|files [ROOT]; prints one line per offence.
+set -euo pipefail
+check=$1
+cd -- "${2:-$(dirname -- "${BASH_SOURCE[0]}")/../..}"
+
+# offend RULE: what stands on stdin, one "where: what" a line, offends RULE. Whatever is printed makes the check fail.
+offend() { sed "s#\$# [$1]#"; }
+
+# code FILE...: every line as "file:number:text", without comments (and without what follows // in a string).
+code() {
+    (($# == 0)) || awk '
+        FNR == 1 { inside = 0 }
+        {
+            line = $0; kept = ""
+            while (line != "") {
+                if (inside) {
+                    end = index(line, "*/")
+                    if (!end) break
+                    inside = 0; line = substr(line, end + 2)
+                } else if (match(line, /\/\/|\/\*/)) {
+                    kept = kept substr(line, 1, RSTART - 1)
+                    if (substr(line, RSTART, 2) == "//") break
+                    inside = 1; line = substr(line, RSTART + 2)
+                } else { kept = kept line; break }
+            }
+            if (kept !~ /^[ \t]*$/) print FILENAME ":" FNR ":" kept
+        }' "$@"
+}
+
+# files_in FOLDER PATTERN...: existing files below FOLDER, into the array `found`.
+files_in() {
+    local folder=$1 names=()
+    shift
+    for pattern in "$@"; do names+=(-o -name "$pattern"); done
+    found=()
+    [[ ! -d $folder ]] || mapfile -t found < <(find "$folder" -type f \( "${names[@]:1}" \) | sort)
+}
+
+# includes_in FOLDER: its #include lines as "file:number:#include ...", spacing made plain.
+includes_in() {
+    files_in "$1" '*.h' '*.cpp' '*.cl'
+    code "${found[@]}" | sed -nE 's/^([^:]+:[0-9]+:)[ \t]*#[ \t]*include[ \t]*/\1#include /p'
+}
+
+# ------------------------------------------------------------------------------------------ includes
+
+# The floor a shared header stands on; nothing for the lists (materials.h, ...), which may stand anywhere.
+floor_of() {
+    case $1 in
+        lane.h) echo 0 ;;
+        types.h | features.h | math.h) echo 1 ;;
+        bsdf.h | emitter.h) echo 4 ;;
+        bsdf_*.h | emitter_*.h | camera.h) echo 3 ;;
+        materials.h | emitters.h | aovs.h | records.h) ;;
+        *) echo 2 ;;
+    esac
+}
+
+# shared.h alone includes the shared headers: each once, lower floors first.
+check_shared_list() {
+    local list=kernels/shared/shared.h top=0 floor name header
+    includes_in kernels/shared | grep -v "^$list:" | offend "shared headers are included by shared.h only" || true
+    [[ -f $list ]] || return 0
+    local listed
+    listed=$(includes_in kernels/shared | grep "^$list:" | grep -v '#include <' |
+        sed -E 's|.*#include "([^"]*/)?([^"/]+)".*|\2|' || true)
+    for header in kernels/shared/*.h; do
+        [[ $header == "$list" ]] && continue
+        [[ $(grep -cx "${header##*/}" <<<"$listed") == 1 ]] ||
+            echo "$header: not exactly once in $list" | offend "shared.h lists every shared header"
+    done
+    for name in $listed; do
+        floor=$(floor_of "$name")
+        [[ -n $floor ]] || continue
+        ((floor >= top)) || echo "$list: $name (floor $floor) after a header of floor $top" | offend "floors go upward"
+        top=$((floor > top ? floor : top))
+    done
+}
+
+# Folder, then what it may not include (an extended regular expression after #include ").
+forbidden_includes=(
+    "kernels     [^\"]*\.cl\""
+    "kernels     host/"
+    "host/scene  host/(cl|bvh|render|commands)/"
+    "host/cl     host/(scene|bvh|render|commands|image)/"
+    "host/image  host/(cl|bvh|render|commands)/"
+    "host/bvh    host/(cl|render|commands)/"
+    "host/render host/commands/"
+    "host        [^\"]*\.\./"
+    "kernels     [^\"]*\.\./"
+)
+
+check_includes() {
+    local rule folder pattern
+    check_shared_list
+    for rule in "${forbidden_includes[@]}"; do
+        read -r folder pattern <<<"$rule"
+        includes_in "$folder" | grep -E ":#include \"$pattern" | offend "$folder may not include this" || true
+    done
+}
+
+# ------------------------------------------------------------------------------------------ numerics
+
+# Uses of epsilon or clamp in kernels that are right, as "file text reason".
+allowed=()
+
+not_allowed() {
+    local line entry file text _reason
+    while IFS= read -r line; do
+        for entry in "${allowed[@]}"; do
+            read -r file text _reason <<<"$entry"
+            [[ $line == "$file:"*"$text"* ]] && continue 2
+        done
+        printf '%s\n' "$line"
+    done
+}
+
+# Literals without f: outside R(...), which adds it, and outside "#define NAME number", which R(...) gets to see.
+double_literals() {
+    sed -E 's/\bR\([^()]*\)//g; /:[ \t]*#[ \t]*define[ \t]+[A-Za-z_0-9]+[ \t]+[-(]*[0-9.eE+-]+\)*[ \t]*$/d' |
+        grep -E ':[0-9]+:(.*[^A-Za-z0-9_.])?(([0-9]+\.[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?|[0-9]+[eE][+-]?[0-9]+|0[xX][0-9a-fA-F.]+[pP][+-]?[0-9]+)([^A-Za-z0-9_.+-]|[+-]|$)'
+}
+
+check_numerics() {
+    local kernels host
+    files_in kernels '*.h' '*.cl'
+    kernels=$(code "${found[@]}")
+    files_in host '*.h' '*.cpp'
+    host=$(code "${found[@]}")
+    grep -E '\bnative_|\bmad\(|\bhalf_(cos|divide|exp|exp2|exp10|log|log2|log10|powr|recip|rsqrt|sin|sqrt|tan)\(|\bfast_(distance|length|normalize)\(' \
+        <<<"$kernels" | offend "inexact built-in" || true
+    grep -E -e '-cl-(fast-relaxed-math|mad-enable|unsafe-math-optimizations|finite-math-only|no-signed-zeros|denorms-are-zero)' \
+        <<<"$kernels"$'\n'"$host" | offend "compiler option that changes results" || true
+    double_literals <<<"$kernels" | offend "double literal: write 1.5f or R(1.5)" || true
+    grep -iE 'epsilon|\bclamp[A-Za-z_0-9]*\(' <<<"$kernels" | not_allowed | offend "epsilon or clamp in a kernel" || true
+}
+
+# ------------------------------------------------------------------------------------------ files
+
+check_files() {
+    local file first lines folder
+    for folder in host kernels tests benchmarks; do
+        files_in "$folder" '*.h' '*.cpp' '*.cl' '*.sh' '*.py' '*.cmake' CMakeLists.txt
+        for file in "${found[@]}"; do
+            first=$(head -c 4 "$file")
+            case $file in
+                *.h | *.cpp | *.cl) [[ $first == //* || $first == '/*'* ]] ;;
+                *.py) [[ $first == \#* || $first == '"""'* ]] ;;
+                *) [[ $first == \#* ]] ;;
+            esac || echo "$file:1: the first line" | offend "a file opens with a comment on what it holds"
+            lines=$(wc -l <"$file")
+            ((lines <= 450)) || echo "$file: $lines lines" | offend "a file has at most 450 lines"
+        done
+    done
+}
+
+offences=$("check_$check")
+[[ -z $offences ]] || { printf '%s\n' "$offences"; exit 1; }
