@@ -1,0 +1,16 @@
+// What every kernel starts from: the shared maths, the buffers and the common parameters.
+
+#include "shared/types.h"
+#include "shared/features.h"
+#include "shared/shared.h"
+#include "device/buffers.h"
+
+#define SCENE_PARAMETER(type, name) global const type* restrict name,
+#define WORK_PARAMETER(type, name) global type* restrict name,
+#define KERNEL_PARAMETERS                                                                          \
+    SCENE_BUFFERS(SCENE_PARAMETER) WORK_BUFFERS(WORK_PARAMETER)                                    \
+    const RenderParams params, const WaveParams wave, const int depth
+
+/// First entry of a segment in the path and shadow state.
+FN int segment_base(int segment, int segment_size) { return segment * (segment_size + SEGMENT_PADDING); }
+FN int wave_paths(WaveParams w) { return w.block_count * w.sample_count * BLOCK_PIXELS; }

@@ -1,0 +1,168 @@
+// Moving lanes between memory and registers: contiguous, packed (survivors only), scattered, and 64-byte records.
+
+#define LOAD_REAL(p) (*(global const Real*)(p))
+#define LOAD_INT(p) (*(global const Int*)(p))
+#define STORE_REAL(p, v) (*(global Real*)(p) = (v))
+#define STORE_INT(p, v) (*(global Int*)(p) = (v))
+
+typedef struct { Real word[16]; } Record;
+
+#if LANES == 1
+// ------------------------------------------------------------------------------------------------- one lane
+FN void store_packed(global float* p, Real v, uint bits) { if (bits) *p = v; }
+FN void store_packed_int(global int* p, Int v, uint bits) { if (bits) *p = v; }
+FN Record load_record(global const float* records, Int index) {
+    Record r;
+    global const float* p = records + 16 * (long)index;
+    for (int k = 0; k < 16; k++) r.word[k] = p[k];
+    return r;
+}
+FN Real gather(global const float* p, Int index) { return p[index]; }
+FN void scatter_add(global float* p, Int index, Real v, uint bits) { if (bits) p[index] += v; }
+FN void scatter(global float* p, Int index, Real v, uint bits) { if (bits) p[index] = v; }
+
+#else
+// ----------------------------------------------------------------------------------------------- many lanes
+typedef union { Real lanes; float at[LANES]; } RealLanes;
+typedef union { Int lanes; int at[LANES]; } IntLanes;
+
+#ifdef LANE_AVX512
+#if LANES == 16
+FN void store_packed(global float* p, Real v, uint bits) {
+    vstore16(__builtin_ia32_compresssf512_mask(v, (Real)0.f, (ushort)bits), 0, p);
+}
+FN void store_packed_int(global int* p, Int v, uint bits) {
+    vstore16(__builtin_ia32_compresssi512_mask(v, (Int)0, (ushort)bits), 0, p);
+}
+#else
+FN void store_packed(global float* p, Real v, uint bits) {
+    vstore8(__builtin_ia32_compresssf256_mask(v, (Real)0.f, (uchar)bits), 0, p);
+}
+FN void store_packed_int(global int* p, Int v, uint bits) {
+    vstore8(__builtin_ia32_compresssi256_mask(v, (Int)0, (uchar)bits), 0, p);
+}
+#endif
+#else
+FN void store_packed(global float* p, Real v, uint bits) {
+    RealLanes x;
+    x.lanes = v;
+    int n = 0;
+    for (int k = 0; k < LANES; k++)
+        if ((bits >> k) & 1u) p[n++] = x.at[k];
+}
+FN void store_packed_int(global int* p, Int v, uint bits) {
+    IntLanes x;
+    x.lanes = v;
+    int n = 0;
+    for (int k = 0; k < LANES; k++)
+        if ((bits >> k) & 1u) p[n++] = x.at[k];
+}
+#endif
+
+FN Real gather(global const float* p, Int index) {
+    IntLanes i;
+    RealLanes r;
+    i.lanes = index;
+    for (int k = 0; k < LANES; k++) r.at[k] = p[i.at[k]];
+    return r.lanes;
+}
+
+/// The lanes' indices must differ.
+FN void scatter(global float* p, Int index, Real v, uint bits) {
+    IntLanes i;
+    RealLanes x;
+    i.lanes = index;
+    x.lanes = v;
+    for (int k = 0; k < LANES; k++)
+        if ((bits >> k) & 1u) p[i.at[k]] = x.at[k];
+}
+
+FN void scatter_add(global float* p, Int index, Real v, uint bits) {
+    IntLanes i;
+    RealLanes x;
+    i.lanes = index;
+    x.lanes = v;
+    for (int k = 0; k < LANES; k++)
+        if ((bits >> k) & 1u) p[i.at[k]] += x.at[k];
+}
+
+#if LANES == 16 && defined(__clang__)
+// 16 aligned loads and a 16 x 16 transpose in registers: cheaper than 16 gathers.
+#define MERGE(x, y, a, b, c, d, e, f, g, h)                                                        \
+    __builtin_shufflevector(x, y, a, a + 16, b, b + 16, c, c + 16, d, d + 16, e, e + 16, f,        \
+                            f + 16, g, g + 16, h, h + 16)
+#define PAIRS_LOW(x, y) MERGE(x, y, 0, 1, 4, 5, 8, 9, 12, 13)
+#define PAIRS_HIGH(x, y) MERGE(x, y, 2, 3, 6, 7, 10, 11, 14, 15)
+#define QUADS_LOW(x, y)                                                                            \
+    __builtin_shufflevector(x, y, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29)
+#define QUADS_HIGH(x, y)                                                                           \
+    __builtin_shufflevector(x, y, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)
+#define OCTETS_LOW(x, y)                                                                           \
+    __builtin_shufflevector(x, y, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27)
+#define OCTETS_HIGH(x, y)                                                                          \
+    __builtin_shufflevector(x, y, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31)
+
+FN Record load_record(global const float* records, Int index) {
+    global const float16* rows = (global const float16*)records;
+    IntLanes i;
+    i.lanes = index;
+    float16 a[16], b[16];
+#pragma unroll
+    for (int k = 0; k < 16; k++) a[k] = rows[i.at[k]];
+#pragma unroll
+    for (int k = 0; k < 16; k += 2) {
+        b[k] = PAIRS_LOW(a[k], a[k + 1]);
+        b[k + 1] = PAIRS_HIGH(a[k], a[k + 1]);
+    }
+    // a[4g + c]: words c, c + 4, c + 8, c + 12 of rows 4g .. 4g + 3
+#pragma unroll
+    for (int k = 0; k < 16; k += 4) {
+        a[k] = QUADS_LOW(b[k], b[k + 2]);
+        a[k + 1] = QUADS_HIGH(b[k], b[k + 2]);
+        a[k + 2] = QUADS_LOW(b[k + 1], b[k + 3]);
+        a[k + 3] = QUADS_HIGH(b[k + 1], b[k + 3]);
+    }
+    Record r;
+#pragma unroll
+    for (int c = 0; c < 4; c++) {
+        float16 p = OCTETS_LOW(a[c], a[4 + c]), q = OCTETS_HIGH(a[c], a[4 + c]);
+        float16 u = OCTETS_LOW(a[8 + c], a[12 + c]), v = OCTETS_HIGH(a[8 + c], a[12 + c]);
+        r.word[c] = OCTETS_LOW(p, u);
+        r.word[c + 8] = OCTETS_HIGH(p, u);
+        r.word[c + 4] = OCTETS_LOW(q, v);
+        r.word[c + 12] = OCTETS_HIGH(q, v);
+    }
+    return r;
+}
+#else
+FN Record load_record(global const float* records, Int index) {
+    Record r;
+    for (int k = 0; k < 16; k++) r.word[k] = gather(records + k, index * 16);
+    return r;
+}
+#endif
+#endif
+
+// The fields of a record by name, from the list in types.h.
+#define WORD_float(w) (w)
+#define WORD_int(w) asInt(w)
+#define LOADER(Struct, FIELDS, UNPACK, ENUM)                                                       \
+    enum { FIELDS(ENUM) };                                                                         \
+    FN Struct load_##Struct(global const Struct##Record* records, Int index) {                     \
+        Record record = load_record((global const float*)records, index);                         \
+        Struct s;                                                                                  \
+        FIELDS(UNPACK)                                                                             \
+        return s;                                                                                  \
+    }
+#define PRIMITIVE_ENUM(type, name) primitive_word_##name,
+#define PRIMITIVE_UNPACK(type, name) s.name = WORD_##type(record.word[primitive_word_##name]);
+LOADER(Primitive, PRIMITIVE_FIELDS, PRIMITIVE_UNPACK, PRIMITIVE_ENUM)
+#define VERTEX_ENUM(type, name) vertex_word_##name,
+#define VERTEX_UNPACK(type, name) s.name = WORD_##type(record.word[vertex_word_##name]);
+LOADER(Vertex, VERTEX_FIELDS, VERTEX_UNPACK, VERTEX_ENUM)
+#define MATERIAL_ENUM(type, name) material_word_##name,
+#define MATERIAL_UNPACK(type, name) s.name = WORD_##type(record.word[material_word_##name]);
+LOADER(Material, MATERIAL_FIELDS, MATERIAL_UNPACK, MATERIAL_ENUM)
+#define LIGHT_ENUM(type, name) light_word_##name,
+#define LIGHT_UNPACK(type, name) s.name = WORD_##type(record.word[light_word_##name]);
+LOADER(Light, LIGHT_FIELDS, LIGHT_UNPACK, LIGHT_ENUM)

@@ -1,0 +1,84 @@
+// Generate: the camera rays of a wave.
+#include "device/device.h"
+#include "device/lanes_memory.h"
+#include "device/path_state.h"
+
+typedef struct { Real offset, weight; } FilterSample;
+
+/// Offset from the pixel's centre along one axis, distributed as the absolute value of the reconstruction filter
+/// (filter importance sampling, Ernst, Stamminger and Greiner 2006): a sample then belongs to one pixel only.
+FN FilterSample filter_sample(global const FilterBin* table, int bins, Real u) {
+    FilterSample s;
+    s.offset = u - .5f;
+    s.weight = R(1.);
+    if (HAS(reconstruction_filter)) {
+        Real scaled = u * (float)bins;
+        Int bin = toInt(scaled);
+        Real begin = gather((global const float*)table, bin * 2);
+        Real end = gather((global const float*)table, bin * 2 + 2);
+        s.offset = begin + (end - begin) * (scaled - toReal(bin));
+        s.weight = gather((global const float*)table, bin * 2 + 1);
+    }
+    return s;
+}
+
+FN Camera camera_lanes(CameraRecord record) {
+    Camera c;
+#define CAMERA_SPLAT(type, name) c.name = (Real)record.name;
+    CAMERA_FIELDS(CAMERA_SPLAT)
+    return c;
+}
+
+/// Reads: camera, filter table. Writes: results (cleared), counts, path state. Pushes: one path a valid pixel and sample.
+kernel void generate(KERNEL_PARAMETERS) {
+    int segment = get_global_id(0);
+    int first = segment * params.segment_size;
+    int last = min(first + params.segment_size, wave_paths(wave));
+    int to = segment_base(segment, params.segment_size), begin = to;
+    Camera camera = camera_lanes(params.camera);
+    for (int slot = first; slot < last; slot += LANES) {
+        // All lanes of a packet share block and sample: a block has 16 pixels.
+        int in_block = slot % (BLOCK_PIXELS * wave.sample_count);
+        int block = wave.first_block + slot / (BLOCK_PIXELS * wave.sample_count);
+        int sample = wave.first_sample + in_block / BLOCK_PIXELS;
+        Int lane = (Int)(slot % BLOCK_PIXELS) + LANE_INDEX;
+        Int x = (Int)(block % params.blocks_x * 4) + (lane & 3);
+        Int y = (Int)(block / params.blocks_x * 4) + (lane >> 2);
+        Mask valid = (x < params.crop_width) & (y < params.crop_height);
+        x += params.crop_x;
+        y += params.crop_y;
+        Int pixel = y * params.film_width + x;
+        Random4 random = random4(asUint(pixel), (Uint)(uint)sample, (Uint)(uint)dimension_camera, (Uint)(uint)params.seed);
+        FilterSample fx = filter_sample(filter_table, params.filter_bins, uniform01(random.x));
+        FilterSample fy = filter_sample(filter_table, params.filter_bins, uniform01(random.y));
+        vec2 film_position = v2(toReal(x) + .5f + fx.offset, toReal(y) + .5f + fy.offset);
+        vec2 lens = v2(R(0.), R(0.));
+        if (HAS(thin_lens)) lens = disk_uniform(uniform2(random.z, random.w));
+        CameraRay ray = camera_ray(camera, film_position, lens);
+
+        for (int channel = 0; channel < result_field_count + params.aov_channels; channel++)
+            STORE_REAL(RESULT(channel) + slot, (Real)0.f);
+        STORE_REAL(RESULT(result_weight) + slot, fx.weight * fy.weight);
+
+        uint bits = maskBits(valid);
+        PATH_PACK_REAL(ox, ray.origin.x);
+        PATH_PACK_REAL(oy, ray.origin.y);
+        PATH_PACK_REAL(oz, ray.origin.z);
+        PATH_PACK_REAL(dx, ray.direction.x);
+        PATH_PACK_REAL(dy, ray.direction.y);
+        PATH_PACK_REAL(dz, ray.direction.z);
+        PATH_PACK_REAL(t, ray.t_max);
+        PATH_PACK_REAL(tr, (Real)1.f);
+        PATH_PACK_REAL(tg, (Real)1.f);
+        PATH_PACK_REAL(tb, (Real)1.f);
+        PATH_PACK_REAL(pdf, (Real)INFINITY); // emission met by a camera ray has no other strategy
+        PATH_PACK_REAL(eta_scale, (Real)1.f);
+        PATH_PACK_INT(slot, (Int)slot + LANE_INDEX);
+        PATH_PACK_INT(pixel, pixel);
+        PATH_PACK_INT(sample, (Int)sample);
+        PATH_PACK_INT(excluded, (Int)(-1));
+        to += popcount(bits);
+    }
+    counts[2 * segment] = to - begin;
+    statistics[statistic_count * segment + statistic_camera_rays] += (ulong)(to - begin);
+}

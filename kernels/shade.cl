@@ -1,0 +1,230 @@
+// Shade: what a path does at the surface (or the sky) it reached.
+#include "device/device.h"
+#include "device/lanes_memory.h"
+#include "device/light_table.h"
+#include "device/path_state.h"
+
+/// The camera's path or a later vertex, one packet of it.
+typedef struct {
+    vec3 origin, direction, throughput;
+    Real t, pdf, eta_scale, b1, b2;
+    Int slot, pixel, sample, primitive;
+    Mask active, hit;
+} PathVertex;
+
+FN PathVertex load_vertex_state(global const float* path_state, RenderParams params, int at, int left) {
+    PathVertex v;
+    v.active = active_lanes(left);
+    v.origin = v3(PATH_LOAD_REAL(ox), PATH_LOAD_REAL(oy), PATH_LOAD_REAL(oz));
+    v.direction = v3(PATH_LOAD_REAL(dx), PATH_LOAD_REAL(dy), PATH_LOAD_REAL(dz));
+    v.throughput = v3(PATH_LOAD_REAL(tr), PATH_LOAD_REAL(tg), PATH_LOAD_REAL(tb));
+    v.t = PATH_LOAD_REAL(t);
+    v.pdf = PATH_LOAD_REAL(pdf);
+    v.eta_scale = PATH_LOAD_REAL(eta_scale);
+    v.b1 = PATH_LOAD_REAL(b1);
+    v.b2 = PATH_LOAD_REAL(b2);
+    v.slot = PATH_LOAD_INT(slot);
+    v.pixel = PATH_LOAD_INT(pixel);
+    v.sample = PATH_LOAD_INT(sample);
+    // Lanes behind the last path hold leftovers: they count as misses, and primitive 0 stands in for what they hit.
+    Int primitive = PATH_LOAD_INT(primitive);
+    v.hit = v.active & (primitive >= 0);
+    v.primitive = sel(v.hit, primitive, (Int)0);
+    return v;
+}
+
+FN SurfaceInteraction surface_at(Primitive p, PathVertex v, global const VertexRecord* vertices) {
+    SurfaceInteraction s = surface_triangle(p, v.b1, v.b2);
+    if (HAS(vertex_normals) || HAS(vertex_uvs)) {
+        Mask has_attributes = (p.flags & (PRIMITIVE_NORMALS | PRIMITIVE_UVS)) != 0;
+        if (someLane(has_attributes & v.hit)) {
+            Vertex attributes = load_Vertex(vertices, sel(has_attributes, v.primitive, (Int)0));
+            s = surface_vertex_attributes(s, p, attributes, v.b1, v.b2);
+        }
+    }
+    if (HAS(shape_sphere)) {
+        Mask mine = primitive_kind(p) == geometry_sphere;
+        if (someLane(mine)) s = sel_surface(mine, surface_sphere(p, add3(v.origin, scale3(v.direction, v.t))), s);
+    }
+    if (HAS(shape_disk)) {
+        Mask mine = primitive_kind(p) == geometry_disk;
+        if (someLane(mine)) s = sel_surface(mine, surface_disk(p, v.b1, v.b2), s);
+    }
+    return s;
+}
+
+/// Radiance of the sky for lanes that missed everything, weighted against next event estimation.
+FN vec3 sky_emission(PathVertex v, global const LightRecord* lights, RenderParams params, int depth) {
+    Light sky = load_Light(lights, (Int)params.constant_light);
+    Real weight = R(1.);
+    if (HAS(next_event)) weight = power_heuristic(v.pdf, emitter_constant_pdf(sky, v.origin, v.direction, v.origin));
+    if (HAS(hide_emitters) && depth == 0) weight = R(0.);
+    return scale3(light_radiance(sky), weight);
+}
+
+/// Radiance of the emitters the lanes hit, weighted against next event estimation.
+FN vec3 surface_emission(PathVertex v, Primitive p, SurfaceInteraction s, global const LightRecord* lights) {
+    Mask emits = v.hit & (p.light >= 0);
+    vec3 emitted = splat3(R(0.));
+    if (someLane(emits)) {
+        Light light = load_Light(lights, sel(emits, p.light, (Int)0));
+        EmitterHit e = emitter_hit(light, v.origin, v.direction, s.p);
+        Real weight = R(1.);
+        if (HAS(next_event)) weight = power_heuristic(v.pdf, e.pdf);
+        emitted = sel3(emits, scale3(e.radiance, weight), emitted);
+    }
+    return emitted;
+}
+
+FN void write_aovs(global float* results, RenderParams params, PathVertex v, Primitive p, SurfaceInteraction s, Material m) {
+    uint bits = maskBits(v.hit);
+    long capacity = params.path_capacity;
+    vec3 none = splat3(R(0.));
+#define AOV3(kind, value)                                                                          \
+    if (params.aov_offset[aov_##kind] >= 0)                                                        \
+        add_result3(results, capacity, result_field_count + params.aov_offset[aov_##kind], v.slot, sel3(v.hit, value, none), bits);
+#define AOV1(kind, channel, value)                                                                 \
+    if (params.aov_offset[aov_##kind] >= 0)                                                        \
+        scatter_add(results + (result_field_count + params.aov_offset[aov_##kind] + channel) * capacity, v.slot, value, bits);
+    AOV3(albedo, material_reflectance(m))
+    AOV3(sh_normal, s.ns)
+    AOV3(geo_normal, s.ng)
+    AOV3(position, s.p)
+    AOV1(uv, 0, s.uv.x)
+    AOV1(uv, 1, s.uv.y)
+    AOV1(depth, 0, v.t)
+    AOV1(shape_index, 0, toReal(p.shape + 1))
+    AOV1(prim_index, 0, toReal(p.index_in_shape))
+}
+
+/// Reads: path state, scene. Writes: results (emission, alpha, AOVs at the first vertex), counts, path and shadow state.
+/// Pushes: a shadow ray for each vertex with light to receive, a path for each that goes on; both packed in place.
+kernel void shade(KERNEL_PARAMETERS) {
+    int segment = get_global_id(0);
+    int base = segment_base(segment, params.segment_size);
+    int end = base + counts[2 * segment];
+    int next_path = base, next_shadow = base;
+    long capacity = params.path_capacity;
+    for (int at = base; at < end; at += LANES) {
+        PathVertex v = load_vertex_state(path_state, params, at, end - at);
+        Primitive primitive = load_Primitive(primitives, v.primitive);
+        SurfaceInteraction surface = surface_at(primitive, v, vertices);
+
+        // ---- what is seen
+        vec3 seen = splat3(R(0.));
+        Mask covered = v.hit;
+        if (HAS(view_normals)) seen = scale3(add3(surface.ns, splat3(R(1.))), R(.5));
+        if (HAS(view_depth)) seen = splat3(v.t);
+        if (HAS(view_normals) || HAS(view_depth)) seen = sel3(v.hit, seen, splat3(R(0.)));
+        if (HAS(emission)) {
+            seen = add3(seen, surface_emission(v, primitive, surface, lights));
+            if (HAS(emitter_constant)) {
+                Mask sky = v.active & !v.hit;
+                if (someLane(sky)) seen = sel3(sky, sky_emission(v, lights, params, depth), seen);
+                if (!HAS(hide_emitters)) covered = covered | sky;
+            }
+        }
+        if (HAS(emission) || depth == 0) {
+            uint seen_bits = maskBits(v.active & (max_component(seen) != R(0.)));
+            if (seen_bits) add_result3(results, capacity, result_r, v.slot, mul3(v.throughput, seen), seen_bits);
+        }
+        if (depth == 0) scatter_add(RESULT(result_alpha), v.slot, R(1.), maskBits(covered));
+
+        // ---- the material of the side that is looked at
+        Mask need_material = v.hit;
+        ShadingFrame frame = surface_frame(surface);
+        vec3 wo = to_local(frame, neg3(v.direction));
+        Int material_row = primitive.material_front;
+        if (HAS(back_materials)) material_row = sel(wo.z < R(0.), primitive.material_back, material_row);
+        need_material = need_material & (material_row >= 0);
+        Material material = load_Material(materials, sel(need_material, material_row, (Int)0));
+        if (HAS(aovs) && depth == 0) write_aovs(results, params, v, primitive, surface, material);
+        if (depth + 1 >= params.max_depth) continue;
+        Real side = R(1.);
+        if (HAS(back_materials)) {
+            Mask turn = (wo.z < R(0.)) & (((((Int)1) << material.kind) & OPAQUE_MATERIALS) != 0);
+            side = sel(turn, R(-1.), R(1.));
+            wo.z = wo.z * side;
+        }
+
+        Int excluded = sel(primitive_kind(primitive) == geometry_sphere, (Int)(-1), v.primitive);
+        Uint bounce = (Uint)(uint)(dimension_first_bounce + depth * dimensions_per_bounce);
+        Uint seed = (Uint)(uint)params.seed;
+
+        // ---- next event estimation: one shadow ray with its finished contribution
+        if (HAS(next_event)) {
+            Random4 r = random4(asUint(v.pixel), asUint(v.sample), bounce + dimension_emitter, seed);
+            Int row = pick_light(light_aliases, params.light_count, r.x, r.y);
+            EmitterSample e = emitter_sample(load_Light(lights, row), surface.p, uniform2(r.z, r.w));
+            vec3 wi = to_local(frame, e.wi);
+            wi.z = wi.z * side;
+            BsdfEval f = bsdf_eval(material, wo, wi);
+            Real weight = R(1.);
+            if (HAS(emission) && HAS(scattering)) weight = power_heuristic(e.pdf, f.pdf);
+            vec3 contribution = scale3(mul3(mul3(v.throughput, f.f), e.weight), weight);
+            Mask lit = need_material & (max_component(contribution) > R(0.));
+            uint bits = maskBits(lit);
+            if (bits) {
+                vec3 origin = leave_surface(surface.p, surface.error, surface.ng, e.wi);
+                vec3 target = leave_surface(e.q, e.q_error, e.q_normal, neg3(e.wi));
+                vec3 to_light = sel3(e.distant, e.wi, sub3(target, origin));
+                int to = next_shadow;
+                SHADOW_PACK_REAL(ox, origin.x);
+                SHADOW_PACK_REAL(oy, origin.y);
+                SHADOW_PACK_REAL(oz, origin.z);
+                SHADOW_PACK_REAL(dx, to_light.x);
+                SHADOW_PACK_REAL(dy, to_light.y);
+                SHADOW_PACK_REAL(dz, to_light.z);
+                // The end is short of the emitter by the rounding error of a hit distance.
+                SHADOW_PACK_REAL(t, sel(e.distant, (Real)INFINITY, R(1. - GAMMA(32.))));
+                SHADOW_PACK_REAL(r, contribution.x);
+                SHADOW_PACK_REAL(g, contribution.y);
+                SHADOW_PACK_REAL(b, contribution.z);
+                SHADOW_PACK_INT(slot, v.slot);
+                SHADOW_PACK_INT(excluded, excluded);
+                next_shadow += popcount(bits);
+            }
+        }
+
+        // ---- go on in a direction of the BSDF's choice
+        if (HAS(scattering)) {
+            Random4 r = random4(asUint(v.pixel), asUint(v.sample), bounce + dimension_bsdf, seed);
+            BsdfSample b = bsdf_sample(material, wo, uniform2(r.x, r.y), uniform01(r.z));
+            vec3 throughput = mul3(v.throughput, b.weight);
+            Real eta_scale = v.eta_scale * b.eta;
+            Mask alive = need_material & (max_component(throughput) > R(0.));
+            if (HAS(russian_roulette) && depth + 1 >= params.rr_depth) {
+                Roulette roulette = russian_roulette(throughput, eta_scale, uniform01(r.w));
+                alive = alive & roulette.alive;
+                throughput = scale3(throughput, roulette.scale);
+            }
+            uint bits = maskBits(alive);
+            if (bits) {
+                vec3 wi = b.wi;
+                wi.z = wi.z * side;
+                vec3 direction = to_world(frame, wi);
+                vec3 origin = leave_surface(surface.p, surface.error, surface.ng, direction);
+                int to = next_path;
+                PATH_PACK_REAL(ox, origin.x);
+                PATH_PACK_REAL(oy, origin.y);
+                PATH_PACK_REAL(oz, origin.z);
+                PATH_PACK_REAL(dx, direction.x);
+                PATH_PACK_REAL(dy, direction.y);
+                PATH_PACK_REAL(dz, direction.z);
+                PATH_PACK_REAL(t, (Real)INFINITY);
+                PATH_PACK_REAL(tr, throughput.x);
+                PATH_PACK_REAL(tg, throughput.y);
+                PATH_PACK_REAL(tb, throughput.z);
+                PATH_PACK_REAL(pdf, b.pdf);
+                PATH_PACK_REAL(eta_scale, eta_scale);
+                PATH_PACK_INT(slot, v.slot);
+                PATH_PACK_INT(pixel, v.pixel);
+                PATH_PACK_INT(sample, v.sample);
+                PATH_PACK_INT(excluded, excluded);
+                next_path += popcount(bits);
+            }
+        }
+    }
+    counts[2 * segment] = next_path - base;
+    counts[2 * segment + 1] = next_shadow - base;
+}

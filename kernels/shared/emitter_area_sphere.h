@@ -1,0 +1,65 @@
+// A sphere that emits outward (`extra` +1) or inward (-1): centre a, radius bx.
+//
+// From outside, directions are chosen uniformly in the cone it fills; from inside, points uniformly by area.
+
+typedef struct {
+    Mask outside;
+    Real distance_squared;    // from p to the centre
+    Real sine_squared;        // of the cone's half angle
+    Real one_minus_cosine;
+} SphereCone;
+
+FN SphereCone emitter_area_sphere_cone(Light l, vec3 p) {
+    vec3 to = sub3(light_a(l), p);
+    SphereCone c;
+    c.distance_squared = dot3(to, to);
+    Real radius_squared = l.bx * l.bx;
+    c.outside = c.distance_squared > radius_squared;
+    c.sine_squared = sel(c.outside, radius_squared / sel(c.outside, c.distance_squared, R(1.)), R(1.));
+    c.one_minus_cosine = c.sine_squared / (R(1.) + sqrtR(R(1.) - c.sine_squared));
+    return c;
+}
+
+FN Real emitter_area_sphere_cone_pdf(Light l, SphereCone c) {
+    return l.pmf * R(0.5 * INV_PI) / c.one_minus_cosine;
+}
+
+FN EmitterSample emitter_area_sphere_sample(Light l, vec3 p, vec2 u) {
+    SphereCone cone = emitter_area_sphere_cone(l, p);
+    vec3 centre = light_a(l);
+    // Inside: a point uniform by area.
+    vec3 outward = sphere_uniform(u);
+    // Outside: a direction in the cone; the point it meets first lies at the angle alpha about the centre.
+    Real one_minus_c = u.x * cone.one_minus_cosine;
+    Real c = R(1.) - one_minus_c;
+    Real s_squared = one_minus_c * (R(1.) + c);
+    Real ratio = s_squared / cone.sine_squared; // sin^2(theta) / sin^2(theta_max), in [0, 1)
+    Real sine_max = sqrtR(cone.sine_squared);
+    Real cos_alpha = s_squared / sine_max + c * sqrt_nonnegative(R(1.) - ratio);
+    Real sin_alpha = sqrt_nonnegative((R(1.) - cos_alpha) * (R(1.) + cos_alpha));
+    SinCos phi = sincos_turns(u.y);
+    vec3 axis = sub3(p, centre);
+    axis = scale3(axis, R(1.) / sqrtR(sel(cone.outside, cone.distance_squared, R(1.))));
+    axis = sel3(cone.outside, axis, v3(R(0.), R(0.), R(1.)));
+    vec3 toward = to_world(frame_from_normal(axis), v3(sin_alpha * phi.cosine, sin_alpha * phi.sine, cos_alpha));
+    outward = sel3(cone.outside, toward, outward);
+    vec3 q = add3(centre, scale3(outward, l.bx));
+    vec3 error = scale3(add3(abs3(centre), scale3(abs3(outward), l.bx)), R(GAMMA(7.)));
+    EmitterSample by_area = emitter_area_finish(l, p, q, error, scale3(outward, l.extra));
+    Real cone_pdf = emitter_area_sphere_cone_pdf(l, cone);
+    Mask lit = l.extra > R(0.);
+    vec3 cone_weight = scale3(light_radiance(l), sel(lit, R(1.) / cone_pdf, R(0.)));
+    by_area.weight = sel3(cone.outside, cone_weight, by_area.weight);
+    by_area.pdf = sel(cone.outside, cone_pdf, by_area.pdf);
+    return by_area;
+}
+
+FN Real emitter_area_sphere_pdf(Light l, vec3 p, vec3 wi, vec3 q) {
+    SphereCone cone = emitter_area_sphere_cone(l, p);
+    vec3 outward = scale3(sub3(q, light_a(l)), R(1.) / l.bx);
+    return sel(cone.outside, emitter_area_sphere_cone_pdf(l, cone), emitter_area_pdf(l, p, q, outward));
+}
+
+FN Mask emitter_area_sphere_faces(Light l, vec3 wi, vec3 q) {
+    return dot3(sub3(q, light_a(l)), wi) * l.extra < R(0.);
+}

@@ -1,0 +1,62 @@
+// What sampling an emitter returns, and the conventions of all emitters.
+//
+// emitter_<kind>_sample(light, p, u): light arriving at point p. Densities are in solid angle at p and include the
+// probability (light.pmf) with which this row of the light table was picked.
+// emitter_<kind>_pdf(light, p, wi, q): the density with which sample would have chosen wi, for the point q it hits.
+
+typedef struct {
+    vec3 wi;      // unit direction to the emitter
+    vec3 weight;  // radiance / pdf; for delta emitters incident irradiance on a facing surface / pmf; 0: nothing arrives
+    Real pdf;     // 1/sr; infinite for delta emitters
+    vec3 q;       // the point on the emitter
+    vec3 q_error; // rounding error bound of q
+    vec3 q_normal; // unit normal there; any non-zero vector for a point without surface
+    Mask distant; // there is no such point: the light comes from infinity
+} EmitterSample;
+
+FN EmitterSample emitter_sample_none(void) {
+    EmitterSample s;
+    s.wi = v3(R(0.), R(0.), R(1.));
+    s.weight = splat3(R(0.));
+    s.pdf = R(0.);
+    s.q = splat3(R(0.));
+    s.q_error = splat3(R(0.));
+    s.q_normal = v3(R(0.), R(0.), R(1.));
+    s.distant = s.pdf != s.pdf;
+    return s;
+}
+
+FN vec3 light_a(Light l) { return v3(l.ax, l.ay, l.az); }
+FN vec3 light_b(Light l) { return v3(l.bx, l.by, l.bz); }
+FN vec3 light_c(Light l) { return v3(l.cx, l.cy, l.cz); }
+FN vec3 light_radiance(Light l) { return v3(l.r, l.g, l.b); }
+
+/// Finishes a sample chosen uniformly by area: l.density = pmf / area, q and its normal given. One-sided.
+FN EmitterSample emitter_area_finish(Light l, vec3 p, vec3 q, vec3 q_error, vec3 q_normal) {
+    vec3 to = sub3(q, p);
+    Real distance_squared = dot3(to, to);
+    Mask apart = distance_squared > R(0.);
+    Real distance = sqrtR(sel(apart, distance_squared, R(1.)));
+    EmitterSample s;
+    s.wi = scale3(to, R(1.) / distance);
+    Real cosine = -dot3(s.wi, q_normal);
+    Mask lit = apart & (cosine > R(0.));
+    Real jacobian = sel(lit, cosine, R(1.)) / sel(lit, distance_squared, R(1.));
+    s.pdf = sel(lit, l.density / jacobian, R(0.));
+    s.weight = sel3(lit, scale3(light_radiance(l), jacobian / l.density), splat3(R(0.)));
+    s.q = q;
+    s.q_error = q_error;
+    s.q_normal = q_normal;
+    s.distant = distance != distance;
+    return s;
+}
+
+/// Density in solid angle of choosing the point q by area, seen from p.
+FN Real emitter_area_pdf(Light l, vec3 p, vec3 q, vec3 q_normal) {
+    vec3 to = sub3(q, p);
+    Real distance_squared = dot3(to, to);
+    Real cosine_distance = absR(dot3(to, q_normal)); // cosine * distance
+    Mask seen = cosine_distance > R(0.);
+    return sel(seen, l.density * distance_squared * sqrtR(distance_squared) / sel(seen, cosine_distance, R(1.)),
+               LANE_INFINITY);
+}

@@ -1,0 +1,65 @@
+// The list of what a scene can need. A kernel asks HAS(x) in an ordinary `if`; what a scene does not need is not compiled.
+//
+// The key holds kinds, never values: moving a vertex or a light gives the same programs.
+#ifndef PARHELION_FEATURES_H
+#define PARHELION_FEATURES_H
+
+// clang-format off
+// An opaque material answers for its upper side only and is turned over to be seen from below.
+#define MATERIALS(X)                                                                               \
+    X(diffuse, opaque) X(conductor, opaque) X(dielectric, transparent)                             \
+    X(thindielectric, transparent) X(roughconductor, opaque) X(roughdielectric, transparent)       \
+    X(null, transparent)
+
+// Rows of the light table. An area emitter has one row for each of its primitives.
+#define EMITTERS(X)                                                                                \
+    X(area_triangle) X(area_sphere) X(area_disk) X(point) X(spot) X(directional) X(constant)
+
+// First-hit values beside the radiance: name, number of channels, suffixes of the channel names.
+#define AOVS(X)                                                                                    \
+    X(albedo, 3, "RGB") X(sh_normal, 3, "XYZ") X(geo_normal, 3, "XYZ") X(position, 3, "XYZ")       \
+    X(uv, 2, "UV") X(depth, 1, "T") X(shape_index, 1, "I") X(prim_index, 1, "I")
+
+// What a scene can need beside its materials, emitters and shapes.
+#define OTHER_FEATURES(X)                                                                          \
+    X(vertex_normals)     /* some mesh is smooth */                                                \
+    X(vertex_uvs)         /* some mesh has texture coordinates, and something reads them */         \
+    X(back_materials)     /* some opaque surface has a material on its lower side too */            \
+    X(ggx) X(beckmann) X(anisotropy)                                                               \
+    X(thin_lens)                                                                                   \
+    X(reconstruction_filter) /* any but the box */                                                 \
+    X(next_event)         /* direct light is sampled at every vertex */                            \
+    X(emission)           /* emitters that a ray can meet */                                       \
+    X(scattering)         /* paths go on in directions of the BSDF's choice */                      \
+    X(hide_emitters)                                                                               \
+    X(russian_roulette)                                                                            \
+    X(view_normals) X(view_depth)                                                                  \
+    X(moments)            /* the second moment of the radiance is asked for */                      \
+    X(aovs)
+// clang-format on
+
+#define FEATURE_MATERIAL(name, sides) feature_bsdf_##name,
+#define FEATURE_EMITTER(name) feature_emitter_##name,
+#define FEATURE_GEOMETRY(name) feature_shape_##name,
+#define FEATURE_OTHER(name) feature_##name,
+enum Feature {
+    MATERIALS(FEATURE_MATERIAL) EMITTERS(FEATURE_EMITTER) GEOMETRIES(FEATURE_GEOMETRY)
+        OTHER_FEATURES(FEATURE_OTHER) feature_count
+};
+
+#define KIND_MATERIAL(name, sides) material_##name,
+enum MaterialKind { MATERIALS(KIND_MATERIAL) material_kind_count };
+#define SIDES_opaque 1
+#define SIDES_transparent 0
+#define OPAQUE_BIT(name, sides) | (SIDES_##sides << material_##name)
+#define OPAQUE_MATERIALS (0 MATERIALS(OPAQUE_BIT)) // bit k: material kind k is opaque
+#define KIND_EMITTER(name) emitter_##name,
+enum EmitterKind { EMITTERS(KIND_EMITTER) emitter_kind_count };
+#define KIND_GEOMETRY(name) geometry_##name,
+enum GeometryKind { GEOMETRIES(KIND_GEOMETRY) geometry_kind_count };
+#define KIND_AOV(name, channels, suffixes) aov_##name,
+enum AovKind { AOVS(KIND_AOV) aov_kind_count };
+
+#define HAS(x) (((FEATURE_MASK) >> feature_##x) & 1u)
+
+#endif

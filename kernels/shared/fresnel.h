@@ -1,0 +1,79 @@
+// Fresnel reflectance and refraction, in forms that lose no digits at eta near 1, at grazing and at the critical angle.
+
+/// A dielectric interface seen from the side of the incident direction.
+/// eta = index beyond / index on this side; m = eta^2 - 1 = m_high + m_low.
+typedef struct { Real eta, inv_eta, m_high, m_low; } Interface;
+
+typedef struct {
+    Real reflectance;   // unpolarised; 1 on total internal reflection
+    Real transmittance; // 1 - reflectance, without the subtraction
+    Real g;             // eta * cosine beyond the interface; 0 on total internal reflection
+} Fresnel;
+
+/// Unpolarised dielectric Fresnel for the cosine c >= 0 on this side.
+/// With g = sqrt(eta^2 - 1 + c^2): r_s = -m/(c+g)^2, r_p = m((eta^2+1)c^2-1)/(eta^2 c+g)^2. The sum under the root is taken
+/// in two parts, which puts every direction on the right side of the critical angle.
+FN Fresnel fresnel_dielectric(Real c, Interface i) {
+    Real p = c * c;
+    Real g_squared = (p + i.m_high) + (fmaR(c, c, -p) + i.m_low);
+    Mask transmits = g_squared > R(0.);
+    Real g = sqrtR(sel(transmits, g_squared, R(0.)));
+    Real eta_squared = i.eta * i.eta;
+    Real s = c + g, q = eta_squared * c + g;
+    // c = g = 0 needs eta = 1 at grazing: no interface, no reflection.
+    Mask nothing = (s == R(0.)) | (q == R(0.));
+    Real s_squared = sel(nothing, R(1.), s * s), q_squared = sel(nothing, R(1.), q * q);
+    Real r_s = i.m_high / s_squared;
+    Real r_p = i.m_high * ((eta_squared + 1.f) * p - 1.f) / q_squared;
+    Fresnel f;
+    f.reflectance = sel(transmits | nothing, .5f * (r_s * r_s + r_p * r_p), R(1.));
+    f.transmittance = sel(transmits, 2.f * c * g * (R(1.) / s_squared + eta_squared / q_squared), R(0.));
+    f.g = g;
+    return f;
+}
+
+/// Refracts the unit direction w (pointing away from the surface, on the side of the unit normal n: dot(w, n) = c > 0)
+/// through the interface; g from fresnel_dielectric. The zero vector on total internal reflection.
+/// t = -w/eta - n*(g - c)/eta with g - c = m/(c+g): no cancellation.
+FN vec3 refract_about(vec3 w, vec3 n, Real c, Real g, Interface i) {
+    Mask transmits = g > R(0.);
+    Real along = i.m_high * i.inv_eta / sel(transmits, c + g, R(1.));
+    vec3 t = neg3(add3(scale3(w, i.inv_eta), scale3(n, along)));
+    return sel3(transmits, t, splat3(R(0.)));
+}
+
+/// Refraction in the tangent frame: the normal is (0, 0, 1) and `w` may lie on either side; from below the caller gives the
+/// interface with its two indices swapped, and z flips. The zero vector on total internal reflection.
+FN vec3 refract_local(vec3 w, Interface i) {
+    Real c = absR(w.z);
+    Fresnel f = fresnel_dielectric(c, i);
+    return refract_about(w, v3(R(0.), R(0.), copysignR(R(1.), w.z)), c, f.g, i);
+}
+
+/// Unpolarised conductor Fresnel, one wavelength; eta + i k relative to the side of incidence, c the cosine.
+/// Written with a + i b = sqrt((eta + i k)^2 - sin^2): r_s = (c - a - i b)/(c + a + i b), R_p = R_s |(a + i b) c - s^2|^2/|(a + i b) c + s^2|^2.
+FN Real fresnel_conductor(Real c, Real eta, Real k) {
+    Real c_squared = c * c;
+    Real s_squared = (R(1.) - c) * (R(1.) + c);
+    Real difference = (eta - k) * (eta + k) - s_squared;
+    Real product = 2.f * eta * k;
+    Real modulus = sqrtR(difference * difference + product * product); // a^2 + b^2
+    // The larger of a^2, b^2 by a sum, the smaller by a quotient: (a b)^2 = (eta k)^2.
+    Real large = .5f * (modulus + absR(difference));
+    Real half_product = .5f * product;
+    Real small = sel(large > R(0.), half_product * half_product / sel(large > R(0.), large, R(1.)), R(0.));
+    Real a_squared = sel(difference > R(0.), large, small);
+    Real a = sqrtR(a_squared);
+    Real two_ac = 2.f * a * c;
+    Real s_sum = modulus + c_squared;
+    Real r_s = (s_sum - two_ac) / (s_sum + two_ac);
+    Real p_sum = c_squared * modulus + s_squared * s_squared;
+    Real two_acs = two_ac * s_squared;
+    Real r_p = r_s * (p_sum - two_acs) / (p_sum + two_acs);
+    return sel(s_sum + two_ac > R(0.), .5f * (r_s + r_p), R(1.));
+}
+
+FN vec3 fresnel_conductor_rgb(Real c, vec3 eta, vec3 k) {
+    return v3(fresnel_conductor(c, eta.x, k.x), fresnel_conductor(c, eta.y, k.y),
+              fresnel_conductor(c, eta.z, k.z));
+}

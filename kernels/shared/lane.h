@@ -1,0 +1,135 @@
+// The lane layer: the only file that knows which language compiles the shared maths and how many values a Real holds.
+//
+// OpenCL C: LANES is 16, 8 or 1; Real, Int, Uint and Mask are vectors of that many values (or scalars).
+// C++: one lane; PARHELION_REAL is float or double, and the file that includes this supplies <cmath> and <cstdint>.
+//
+// Rules for everything written above it: values in, values out; no pointers; no `if` on a Mask except
+// `if (someLane(m))` around work that is merged by sel(); masks combine with & and | and are negated with !;
+// R(1.25) makes a constant of the Real's precision.
+
+#ifdef __OPENCL_C_VERSION__
+// ------------------------------------------------------------------------------------------------- OpenCL C
+#pragma OPENCL FP_CONTRACT OFF
+#define FN static inline __attribute__((always_inline))
+#define R(x) ((Real)(x##f))
+
+// The x86 intrinsics have a portable twin each; PORTABLE switches them off so that the twins can be tested.
+#if defined(__AVX512F__) && defined(__AVX512VL__) && !defined(PORTABLE)
+#define LANE_AVX512
+#endif
+
+#if LANES == 1
+typedef float Real;
+typedef int Int;
+typedef uint Uint;
+typedef int Mask; // 0 or 1
+#define asInt as_int
+#define asUint as_uint
+#define asReal as_float
+#define toReal(x) ((float)(x))
+#define toInt(x) ((int)(x))
+#define someLane(m) (m)
+#define maskBits(m) ((uint)(m))
+#define LANE_INDEX 0
+#else
+#define LANE_CAT_(a, b) a##b
+#define LANE_CAT(a, b) LANE_CAT_(a, b)
+typedef LANE_CAT(float, LANES) Real;
+typedef LANE_CAT(int, LANES) Int;
+typedef LANE_CAT(uint, LANES) Uint;
+typedef LANE_CAT(int, LANES) Mask; // 0 or -1 in each lane
+#define asInt LANE_CAT(as_int, LANES)
+#define asUint LANE_CAT(as_uint, LANES)
+#define asReal LANE_CAT(as_float, LANES)
+#define toReal(x) LANE_CAT(convert_float, LANES)(x)
+#define toInt(x) LANE_CAT(LANE_CAT(convert_int, LANES), _rtz)(x)
+#if LANES == 16
+#define LANE_INDEX ((Int)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#else
+#define LANE_INDEX ((Int)(0, 1, 2, 3, 4, 5, 6, 7))
+#endif
+
+// One bit a lane. OpenCL's any() compiles to a chain of branches; an OR-tree does not.
+#if LANES == 16 && defined(LANE_AVX512)
+FN uint maskBits(Mask m) { return (ushort)__builtin_ia32_cvtd2mask512(m); }
+FN int someLane(Mask m) { return maskBits(m) != 0; }
+#elif LANES == 16
+FN uint maskBits(Mask m) {
+    int16 bit = m & (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
+    int8 a = bit.lo | bit.hi;
+    int4 b = a.lo | a.hi;
+    int2 c = b.lo | b.hi;
+    return (uint)(c.x | c.y);
+}
+FN int someLane(Mask m) { return maskBits(m) != 0; }
+#else
+FN uint maskBits(Mask m) {
+    int8 bit = m & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+    int4 b = bit.lo | bit.hi;
+    int2 c = b.lo | b.hi;
+    return (uint)(c.x | c.y);
+}
+FN int someLane(Mask m) { return maskBits(m) != 0; }
+#endif
+#endif
+
+/// Position of the lowest set bit; bits != 0.
+FN int lowest_bit(uint bits) { return 31 - (int)clz(bits & (0u - bits)); }
+
+#define sqrtR(x) sqrt(x)
+#define fmaR(a, b, c) fma(a, b, c)
+#define mulHigh(a, b) mul_hi(a, b)
+FN Real absR(Real a) { return asReal(asUint(a) & 0x7fffffffu); }
+FN Real copysignR(Real a, Real b) {
+    return asReal((asUint(a) & 0x7fffffffu) | (asUint(b) & 0x80000000u));
+}
+#define LANE_NAN NAN
+#define LANE_INFINITY INFINITY
+#define finiteR(x) ((asUint(x) & 0x7f800000u) != 0x7f800000u)
+/// x * 2^n, where neither x nor the result is zero, denormal or infinite.
+FN Real scale_by_power_of_two(Real x, Int n) { return asReal(asInt(x) + n * 8388608); }
+
+#else
+// ------------------------------------------------------------------------------------------------------ C++
+#define FN inline
+#define LANES 1
+typedef PARHELION_REAL Real;
+typedef std::int32_t Int;
+typedef std::uint32_t Uint;
+typedef bool Mask;
+#define R(x) ((Real)(x))
+#define toReal(x) ((Real)(x))
+#define toInt(x) ((std::int32_t)(x))
+#define someLane(m) (m)
+#define LANE_INDEX 0
+FN Int asInt(Uint x) { return (Int)x; }
+FN Uint asUint(Int x) { return (Uint)x; }
+FN Real sqrtR(Real x) { return std::sqrt(x); }
+FN Real fmaR(Real a, Real b, Real c) { return std::fma(a, b, c); }
+FN Real absR(Real a) { return std::fabs(a); }
+FN Real copysignR(Real a, Real b) { return std::copysign(a, b); }
+FN Uint mulHigh(Uint a, Uint b) { return (Uint)(((std::uint64_t)a * b) >> 32); }
+FN Mask finiteR(Real x) { return std::isfinite(x); }
+FN Real scale_by_power_of_two(Real x, Int n) { return std::ldexp(x, n); }
+#define LANE_NAN ((Real)NAN)
+#define LANE_INFINITY ((Real)INFINITY)
+#endif
+
+// ----------------------------------------------------------------------------------------------- everywhere
+#define sel(mask, a, b) ((mask) ? (a) : (b))
+
+// Comparisons instead of fmin/fmax: those have NaN rules of their own and cost several instructions.
+FN Real minR(Real a, Real b) { return sel(a < b, a, b); }
+FN Real maxR(Real a, Real b) { return sel(a > b, a, b); }
+
+// The neighbouring representable number, away from and towards minus infinity; x finite.
+#ifdef __OPENCL_C_VERSION__
+FN Real nextUp(Real x) {
+    Real up = asReal(sel(x >= R(0.), asInt(x) + 1, asInt(x) - 1));
+    return sel(x == R(0.), asReal((Int)1), up);
+}
+FN Real nextDown(Real x) { return -nextUp(-x); }
+#else
+FN Real nextUp(Real x) { return std::nextafter(x, LANE_INFINITY); }
+FN Real nextDown(Real x) { return std::nextafter(x, -LANE_INFINITY); }
+#endif

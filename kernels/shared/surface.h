@@ -1,0 +1,131 @@
+// From a hit to the surface there: position with its error bound, geometric and shading normal, texture coordinates.
+
+typedef struct {
+    vec3 p;
+    vec3 error;   // absolute rounding error bound of p, per coordinate
+    vec3 ng;      // unit geometric normal
+    vec3 ns;      // unit shading normal
+    vec3 tangent; // derivative of p along u, not normalised; only for anisotropic materials
+    vec2 uv;
+} SurfaceInteraction;
+
+FN vec3 primitive_a(Primitive p) { return v3(p.ax, p.ay, p.az); }
+FN vec3 primitive_b(Primitive p) { return v3(p.bx, p.by, p.bz); }
+FN vec3 primitive_c(Primitive p) { return v3(p.cx, p.cy, p.cz); }
+FN Int primitive_kind(Primitive p) { return p.flags & PRIMITIVE_KIND_MASK; }
+FN Real primitive_side(Primitive p) {
+    return sel((p.flags & PRIMITIVE_FLIPPED) != 0, R(-1.), R(1.));
+}
+
+/// Interpolates a, b, c by barycentrics (1 - b1 - b2, b1, b2).
+FN vec3 interpolate3(vec3 a, vec3 b, vec3 c, Real b1, Real b2) {
+    Real b0 = R(1.) - b1 - b2;
+    return add3(add3(scale3(a, b0), scale3(b, b1)), scale3(c, b2));
+}
+
+FN SurfaceInteraction surface_triangle(Primitive p, Real b1, Real b2) {
+    vec3 a = primitive_a(p), b = primitive_b(p), c = primitive_c(p);
+    Real b0 = R(1.) - b1 - b2;
+    SurfaceInteraction s;
+    s.p = interpolate3(a, b, c, b1, b2);
+    s.error = scale3(interpolate3(abs3(a), abs3(b), abs3(c), absR(b1), absR(b2)), R(GAMMA(7.)));
+    // 1 - b1 - b2 can round to a small negative number; its share of the bound must not be.
+    s.error = add3(s.error, scale3(abs3(a), (absR(b0) - b0) * R(GAMMA(7.))));
+    s.ng = normalize3(cross3(sub3(b, a), sub3(c, a)));
+    s.ns = s.ng;
+    s.uv = v2(b1, b2);
+    s.tangent = splat3(R(0.));
+    if (HAS(anisotropy)) s.tangent = frame_from_normal(s.ng).s;
+    return s;
+}
+
+/// Shading normals interpolated by barycentrics from the normals of the corners.
+FN vec3 interpolated_normal(Vertex v, Real b1, Real b2) {
+    return interpolate3(v3(v.n0x, v.n0y, v.n0z), v3(v.n1x, v.n1y, v.n1z), v3(v.n2x, v.n2y, v.n2z), b1, b2);
+}
+
+/// Replaces shading normal, texture coordinates and tangent of a triangle by those of its corners, where they have them.
+FN SurfaceInteraction surface_vertex_attributes(SurfaceInteraction s, Primitive p, Vertex v, Real b1, Real b2) {
+    if (HAS(vertex_normals)) {
+        vec3 n = interpolated_normal(v, b1, b2);
+        Real length_squared = dot3(n, n);
+        Mask usable = ((p.flags & PRIMITIVE_NORMALS) != 0) & (length_squared > R(0.));
+        s.ns = sel3(usable, scale3(n, R(1.) / sqrtR(sel(usable, length_squared, R(1.)))), s.ns);
+    }
+    if (HAS(vertex_uvs)) {
+        Mask usable = (p.flags & PRIMITIVE_UVS) != 0;
+        Real b0 = R(1.) - b1 - b2;
+        vec2 uv = v2(v.u0 * b0 + v.u1 * b1 + v.u2 * b2, v.v0 * b0 + v.v1 * b1 + v.v2 * b2);
+        s.uv.x = sel(usable, uv.x, s.uv.x);
+        s.uv.y = sel(usable, uv.y, s.uv.y);
+        if (HAS(anisotropy)) {
+            Real du1 = v.u1 - v.u0, dv1 = v.v1 - v.v0, du2 = v.u2 - v.u0, dv2 = v.v2 - v.v0;
+            Real determinant = difference_of_products(du1, dv2, dv1, du2);
+            vec3 e1 = sub3(primitive_b(p), primitive_a(p)), e2 = sub3(primitive_c(p), primitive_a(p));
+            vec3 along_u = sub3(scale3(e1, dv2), scale3(e2, dv1));
+            Mask regular = usable & (determinant != R(0.));
+            s.tangent = sel3(regular, scale3(along_u, copysignR(R(1.), determinant)), s.tangent);
+        }
+    }
+    return s;
+}
+
+FN SurfaceInteraction surface_sphere(Primitive p, vec3 on_ray) {
+    vec3 centre = primitive_a(p), axis_x = primitive_b(p), axis_z = primitive_c(p);
+    vec3 outward = normalize3(sub3(on_ray, centre));
+    SurfaceInteraction s;
+    s.p = add3(centre, scale3(outward, p.radius)); // back on the sphere: the error no longer grows with the ray's length
+    s.error = scale3(add3(abs3(centre), scale3(abs3(outward), p.radius)), R(GAMMA(7.)));
+    s.ng = scale3(outward, primitive_side(p));
+    s.ns = s.ng;
+    s.tangent = splat3(R(0.));
+    s.uv = v2(R(0.), R(0.));
+    vec3 axis_y = cross3(axis_z, axis_x);
+    vec3 local = v3(dot3(outward, axis_x), dot3(outward, axis_y), dot3(outward, axis_z));
+    if (HAS(aovs)) {
+        Real phi = atan2R(local.y, local.x) * R(0.5 * INV_PI);
+        s.uv = v2(sel(phi < R(0.), phi + 1.f, phi), acosR(maxR(R(-1.), minR(R(1.), local.z))) * R(INV_PI));
+    }
+    if (HAS(anisotropy)) s.tangent = sub3(scale3(axis_y, local.x), scale3(axis_x, local.y));
+    return s;
+}
+
+/// b1, b2: coordinates of the hit along the two edges.
+FN SurfaceInteraction surface_disk(Primitive p, Real b1, Real b2) {
+    vec3 centre = primitive_a(p), edge_u = primitive_b(p), edge_v = primitive_c(p);
+    SurfaceInteraction s;
+    s.p = add3(centre, add3(scale3(edge_u, b1), scale3(edge_v, b2)));
+    s.error = scale3(add3(abs3(centre), add3(scale3(abs3(edge_u), absR(b1)), scale3(abs3(edge_v), absR(b2)))),
+                     R(GAMMA(7.)));
+    s.ng = scale3(normalize3(cross3(edge_u, edge_v)), primitive_side(p));
+    s.ns = s.ng;
+    s.tangent = splat3(R(0.));
+    s.uv = v2(R(0.), R(0.));
+    Real r = sqrtR(b1 * b1 + b2 * b2);
+    if (HAS(aovs)) {
+        Real phi = atan2R(b2, b1) * R(0.5 * INV_PI);
+        s.uv = v2(r, sel(phi < R(0.), phi + 1.f, phi));
+    }
+    if (HAS(anisotropy)) {
+        Mask centred = r == R(0.);
+        s.tangent = sel3(centred, edge_u, add3(scale3(edge_u, b1), scale3(edge_v, b2)));
+    }
+    return s;
+}
+
+FN SurfaceInteraction sel_surface(Mask m, SurfaceInteraction a, SurfaceInteraction b) {
+    SurfaceInteraction s;
+    s.p = sel3(m, a.p, b.p);
+    s.error = sel3(m, a.error, b.error);
+    s.ng = sel3(m, a.ng, b.ng);
+    s.ns = sel3(m, a.ns, b.ns);
+    s.tangent = sel3(m, a.tangent, b.tangent);
+    s.uv = v2(sel(m, a.uv.x, b.uv.x), sel(m, a.uv.y, b.uv.y));
+    return s;
+}
+
+/// The frame BSDFs are evaluated in.
+FN ShadingFrame surface_frame(SurfaceInteraction s) {
+    if (HAS(anisotropy)) return frame_from_tangent(s.ns, s.tangent);
+    return frame_from_normal(s.ns);
+}
