@@ -12,7 +12,7 @@ good_tree() {
     cd "$scratch/tree"
     echo '// lane' >kernels/shared/lane.h
     printf '// math: 1.5 and epsilon and native_sin( in a comment are fine\n/* so is\n 2.5 mad( */\nfloat x = 1.5f + 1e3f + .5f; %s\n' \
-        'Real y = R(2.5); v.s0 = 0x1.0p-24f + 3;' >kernels/shared/math.h
+        'Real y = R(2.5) * R(1. - G((7.)) + 2.); v.s0 = 0x1.0p-24f + 3;' >kernels/shared/math.h
     echo '#define PI 3.14159265' >>kernels/shared/math.h
     echo '// bsdf' >kernels/shared/bsdf.h
     printf '// list\n#include "shared/lane.h"\n#include "shared/math.h"\n#include "shared/bsdf.h"\n' >kernels/shared/shared.h
@@ -40,7 +40,7 @@ done
 must_find includes "by shared.h only" '#include "shared/math.h"' kernels/shared/bsdf.h
 must_find includes "lists every" '// not listed' kernels/shared/warp.h
 must_find includes "lists every" '#include "shared/math.h"' kernels/shared/shared.h
-must_find includes "floors go upward" '#include "shared/types.h"' kernels/shared/shared.h
+must_find includes "floors go upward" '#include "shared/lane.h"' kernels/shared/shared.h
 must_find includes "kernels may not" '#include "shade.cl"' kernels/intersect.cl
 must_find includes "kernels may not" '  # include "host/error.h"' kernels/device/film.h
 must_find includes "kernels may not" '#include "../host/error.h"' kernels/device/film.h
