@@ -1,9 +1,11 @@
 // A sphere that emits outward (`extra` +1) or inward (-1): centre a, radius bx.
 //
-// From outside, directions are chosen uniformly in the cone it fills; from inside, points uniformly by area.
+// One that emits outward is seen from outside: directions are chosen uniformly in the cone it fills. One that emits inward is
+// seen from inside: points are chosen uniformly by area. The choice goes by the side that emits, not by the distance of p: a
+// point on its own wall rounds to either side, and both strategies must take the same branch.
 
 typedef struct {
-    Mask outside;
+    Mask outside, visible;
     Real distance_squared;    // from p to the centre
     Real sine_squared;        // of the cone's half angle
     Real one_minus_cosine;
@@ -14,8 +16,10 @@ FN SphereCone emitter_area_sphere_cone(Light l, vec3 p) {
     SphereCone c;
     c.distance_squared = dot3(to, to);
     Real radius_squared = l.bx * l.bx;
-    c.outside = c.distance_squared > radius_squared;
-    c.sine_squared = sel(c.outside, radius_squared / sel(c.outside, c.distance_squared, R(1.)), R(1.));
+    c.outside = l.extra > R(0.);
+    c.visible = !c.outside | (c.distance_squared > radius_squared);
+    Mask cone = c.outside & c.visible;
+    c.sine_squared = sel(cone, radius_squared / sel(cone, c.distance_squared, R(1.)), R(1.));
     c.one_minus_cosine = c.sine_squared / (R(1.) + sqrtR(R(1.) - c.sine_squared));
     return c;
 }
@@ -39,16 +43,16 @@ FN EmitterSample emitter_area_sphere_sample(Light l, vec3 p, vec2 u) {
     Real sin_alpha = sqrt_nonnegative((R(1.) - cos_alpha) * (R(1.) + cos_alpha));
     SinCos phi = sincos_turns(u.y);
     vec3 axis = sub3(p, centre);
-    axis = scale3(axis, R(1.) / sqrtR(sel(cone.outside, cone.distance_squared, R(1.))));
-    axis = sel3(cone.outside, axis, v3(R(0.), R(0.), R(1.)));
+    Mask in_cone = cone.outside & cone.visible;
+    axis = scale3(axis, R(1.) / sqrtR(sel(in_cone, cone.distance_squared, R(1.))));
+    axis = sel3(in_cone, axis, v3(R(0.), R(0.), R(1.)));
     vec3 toward = to_world(frame_from_normal(axis), v3(sin_alpha * phi.cosine, sin_alpha * phi.sine, cos_alpha));
     outward = sel3(cone.outside, toward, outward);
     vec3 q = add3(centre, scale3(outward, l.bx));
     vec3 error = scale3(add3(abs3(centre), scale3(abs3(outward), l.bx)), R(GAMMA(7.)));
     EmitterSample by_area = emitter_area_finish(l, p, q, error, scale3(outward, l.extra));
     Real cone_pdf = emitter_area_sphere_cone_pdf(l, cone);
-    Mask lit = l.extra > R(0.);
-    vec3 cone_weight = scale3(light_radiance(l), sel(lit, R(1.) / cone_pdf, R(0.)));
+    vec3 cone_weight = scale3(light_radiance(l), sel(cone.visible, R(1.) / cone_pdf, R(0.)));
     by_area.weight = sel3(cone.outside, cone_weight, by_area.weight);
     by_area.pdf = sel(cone.outside, cone_pdf, by_area.pdf);
     return by_area;

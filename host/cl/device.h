@@ -1,0 +1,43 @@
+// Finding OpenCL devices and choosing one.
+#pragma once
+
+#include "host/cl/opencl.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace parhelion {
+
+/// A device and what matters for rendering on it.
+struct Device {
+    int index = 0; ///< in the order of `parhelion devices`
+    cl::Device handle;
+    std::string name, vendor, platform, driver_version, opencl_version;
+    bool is_cpu = false;
+    bool available = true;
+    std::uint64_t memory_bytes = 0, max_allocation_bytes = 0;
+    unsigned compute_units = 0;
+    unsigned float_width = 1; ///< floats in a native vector
+    bool fp64 = false;
+
+    /// Values a lane-generic kernel handles at once here: 16 or 8 on CPUs, 1 elsewhere.
+    int lanes() const;
+};
+
+struct DeviceList {
+    std::vector<Device> devices;
+    std::vector<std::string> failures; ///< one line for each platform that could not be asked
+};
+
+/// Every device of every platform. A platform that fails is reported and hides no other.
+DeviceList list_devices();
+
+/// The device of that index or with that text in its name (case does not matter); an empty selector takes the first
+/// GPU, or the first device where there is none. Throws DeviceError naming what there is.
+Device choose_device(const std::string& selector);
+
+/// The name of an OpenCL error code, e.g. "CL_OUT_OF_RESOURCES (-5)".
+std::string opencl_error_name(int code);
+
+} // namespace parhelion

@@ -1,0 +1,66 @@
+// Compiling one kernel file, or reading back what was compiled before.
+#include "host/cl/program.h"
+
+#include "host/cl/source.h"
+#include "host/error.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace parhelion {
+namespace {
+
+std::string option_text(const ProgramOptions& options) {
+    return fmt::format("-cl-std=CL1.2 -DLANES={} -DFEATURE_MASK=0x{:x}ul{}", options.lanes, options.features,
+                       options.portable ? " -DPORTABLE" : "");
+}
+
+std::string kernel_name(const std::string& file) { return file.substr(0, file.find('.')); }
+
+} // namespace
+
+Program::Program(const cl::Context& context, const Device& device, const ProgramCache& cache,
+                 const std::string& file, const ProgramOptions& options)
+    : file_(file), options_(option_text(options)) {
+    auto start = std::chrono::steady_clock::now();
+    std::string source = kernel_source(file);
+    key_ = fmt::format("{}\n{}\n{}\n{}\n{}\n", device.platform, device.name, device.driver_version,
+                       device.opencl_version, options_) +
+           source;
+    if (auto binary = cache.load(key_)) from_cache_ = build_from(context, device, *binary);
+    if (!from_cache_) build_source(context, device, source);
+    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool Program::build_from(const cl::Context& context, const Device& device, const std::vector<unsigned char>& binary) {
+    try {
+        program_ = cl::Program(context, {device.handle}, {binary});
+        program_.build({device.handle});
+        cl::Kernel(program_, kernel_name(file_).c_str());
+        return true;
+    } catch (const cl::Error&) {
+        return false; // from another build of the driver, say: the source is at hand
+    }
+}
+
+void Program::build_source(const cl::Context& context, const Device& device, const std::string& source) {
+    program_ = cl::Program(context, source);
+    try {
+        program_.build({device.handle}, options_.c_str());
+    } catch (const cl::Error& e) {
+        std::string log = program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle);
+        throw DeviceError(fmt::format("kernel file {} does not compile on {}: {}\n{}", file_, device.name,
+                                      opencl_error_name(e.err()), log));
+    }
+}
+
+cl::Kernel Program::kernel() const { return cl::Kernel(program_, kernel_name(file_).c_str()); }
+
+void Program::store(const ProgramCache& cache) const {
+    if (from_cache_) return;
+    auto binaries = program_.getInfo<CL_PROGRAM_BINARIES>();
+    if (!binaries.empty() && !binaries.front().empty()) cache.store(key_, binaries.front());
+}
+
+} // namespace parhelion

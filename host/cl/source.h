@@ -1,0 +1,13 @@
+// Kernel source text: the embedded files put together.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace parhelion {
+
+/// The text of a kernel file (a path below kernels/, e.g. "shade.cl") with every #include replaced by the file's text,
+/// once each, and #line directives so that compiler messages name the real file and line.
+std::string kernel_source(std::string_view path);
+
+} // namespace parhelion
