@@ -1,0 +1,36 @@
+// `parhelion compare`: two images, their differences, and whether those are within limits.
+#pragma once
+
+#include "host/image/comparison.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+namespace parhelion {
+
+struct CompareOptions {
+    std::string image, reference;
+    ComparisonOptions figures;
+    bool json = false;
+
+    /// Largest values accepted; absent: reported, not judged.
+    std::optional<double> rmse, relmse, mae, bias, max, flip;
+
+    std::string variance; ///< file of per-sample variances; empty: no z-test
+    bool xyz_statistics = false;
+    ZTestOptions test;
+};
+
+/// Compares, prints the report and returns the exit code: ok where everything asked for is within
+/// its limit (or no limit was given), different where not. Throws InputError (exit code bad_input)
+/// for files that cannot be compared; nothing has been printed then.
+int run_compare(const CompareOptions& options, std::ostream& out);
+
+/// Registers the subcommand; its callback prints to standard output and sets `exit_code`.
+/// InputError passes through CLI::App::parse to the caller.
+void add_compare_command(CLI::App& app, int& exit_code);
+
+} // namespace parhelion
