@@ -1,8 +1,9 @@
-"""Compares Parhelion with Mitsuba 3 on the scenes of cases.json, per pixel, per tile and in the mean.
+"""Compares Parhelion with Mitsuba 3 on the scenes of cases.json: pixels, tiles and the mean.
 
 Needs Python 3.9 or newer with `pip install mitsuba numpy`. Not part of the test suite. Examples:
     python tests/mitsuba/compare.py --parhelion ./parhelion --cache /tmp/mitsuba-references
-    python tests/mitsuba/compare.py --parhelion ./parhelion --scenes shapes normals --images /tmp/out --json out.json
+    python tests/mitsuba/compare.py --parhelion ./parhelion --scenes shapes --images /tmp/out
+    python tests/mitsuba/compare.py --parhelion ./parhelion --scene my.xml -D width=64 --spp 512
     python tests/mitsuba/compare.py --self-test --cache /tmp/mitsuba-references
 Exit code 0: all agree, 1: some differ, 2: something could not be rendered.
 """
@@ -27,37 +28,58 @@ SELF_SEEDS = list(range(1001, 1009))
 
 
 def parhelion_render(program, case, spp, seeds, extra):
-    """Renders the case with Parhelion; spp is split over the seeds. Returns (dict channel -> (S, H, W), seconds)."""
+    """Renders the case with Parhelion; spp is split over the seeds.
+
+    Returns (dict channel -> (S, H, W), seconds).
+    """
     begin, images = time.monotonic(), []
     with tempfile.TemporaryDirectory() as folder:
         for seed in seeds:
             out = pathlib.Path(folder) / f"{seed}.exr"
-            command = [program, "render", str(HERE / case["scene"]), "-o", str(out), "--spp",
-                       str(max(1, spp // len(seeds))), "--seed", str(seed), "--force", "--quiet"]
+            command = [
+                program,
+                "render",
+                str(HERE / case["scene"]),
+                "-o",
+                str(out),
+                "--spp",
+                str(max(1, spp // len(seeds))),
+                "--seed",
+                str(seed),
+                "--force",
+                "--quiet",
+            ]
             for name, value in case.get("parameters", {}).items():
                 command += ["-D", f"{name}={value}"]
             run = subprocess.run(command + extra, capture_output=True, text=True, check=False)
             if run.returncode != 0:
-                raise RuntimeError(f"exit code {run.returncode}: {(run.stderr or run.stdout).strip()}")
+                raise RuntimeError(
+                    f"exit code {run.returncode}: {(run.stderr or run.stdout).strip()}"
+                )
             images.append(reference.channels_of(mitsuba.Bitmap(str(out))))
     stacks = {name: np.stack([image[name] for image in images]) for name in images[0]}
     return stacks, time.monotonic() - begin
 
 
 def write_pictures(folder, name, first, second):
-    """Reference, image and difference (grey 0.5: equal; contrast 8 standard errors) as PNG, colour channels only."""
-    wanted = [c for c in ("R", "G", "B") if c in first and c in second] or \
-             [c for c in ("Y", "X", "Z") if c in first and c in second][:1]
+    """Reference, image and difference (grey: equal; black, white: 8 standard errors) as PNG."""
+    wanted = [c for c in ("R", "G", "B") if c in first and c in second] or [
+        c for c in ("Y", "X", "Z") if c in first and c in second
+    ][:1]
     if not wanted or first[wanted[0]].shape[1:] != second[wanted[0]].shape[1:]:
         return
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     planes = [ztest.welch(first[c], second[c]) for c in wanted]
-    difference = np.stack([0.5 + np.where(e > 0, d / np.where(e > 0, e, 1), 0) / 16 for d, e, _ in planes], -1)
-    pictures = {"mitsuba": np.stack([first[c].mean(0) for c in wanted], -1),
-                "parhelion": np.stack([second[c].mean(0) for c in wanted], -1)}
+    difference = np.stack(
+        [0.5 + np.where(e > 0, d / np.where(e > 0, e, 1), 0) / 16 for d, e, _ in planes], -1
+    )
+    pictures = {
+        "mitsuba": np.stack([first[c].mean(0) for c in wanted], -1),
+        "parhelion": np.stack([second[c].mean(0) for c in wanted], -1),
+    }
     for label, pixels in pictures.items():
-        save_png(folder / f"{name}-{label}.png", np.clip(pixels, 0, 1)**(1 / 2.2))
+        save_png(folder / f"{name}-{label}.png", np.clip(pixels, 0, 1) ** (1 / 2.2))
     save_png(folder / f"{name}-difference.png", np.clip(difference, 0, 1))
 
 
@@ -76,17 +98,33 @@ def print_result(name, result, seconds):
             print(f"    {channel:>8}: {json.dumps({k: v for k, v in c.items() if k != 'pass'})}")
             continue
         mark = " " if c["pass"] else "!"
-        print(f"  {mark} {channel:>8}: mean {c['image_mean']:.6g} against {c['reference_mean']:.6g}, "
-              f"{100 * c['relative_difference_of_means']:+.4f} % +-{100 * c['its_95_percent_half_interval']:.4f} "
-              f"(p {c['p_of_mean']:.3g}); pixels {c['pixels_failing']}/{c['pixels']}, "
-              f"tiles {c['tiles_failing']}/{c['tiles']} failing; rms z {c['rms_z']:.3f}; "
-              f"worst ({c['worst_pixel']['x']},{c['worst_pixel']['y']}) {c['worst_pixel']['image']:.6g} "
-              f"against {c['worst_pixel']['reference']:.6g}")
+        print(
+            f"  {mark} {channel:>8}: mean {c['image_mean']:.6g} against {c['reference_mean']:.6g}, "
+            f"{100 * c['relative_difference_of_means']:+.4f} % "
+            f"+-{100 * c['its_95_percent_half_interval']:.4f} "
+            f"(p {c['p_of_mean']:.3g}); pixels {c['pixels_failing']}/{c['pixels']}, "
+            f"tiles {c['tiles_failing']}/{c['tiles']} failing; rms z {c['rms_z']:.3f}; "
+            f"worst ({c['worst_pixel']['x']},{c['worst_pixel']['y']}) "
+            f"{c['worst_pixel']['image']:.6g} "
+            f"against {c['worst_pixel']['reference']:.6g}"
+        )
     sys.stdout.flush()
 
 
+def print_truth(case, result):
+    """For cases whose mean is known otherwise: how far both renderers are from it."""
+    for channel, truth in case.get("truth", {}).items():
+        c = result[channel]
+        print(
+            f"    {channel:>8}: truth {truth:.6g}: "
+            f"image {100 * (c['image_mean'] / truth - 1):+.4f} %, "
+            f"Mitsuba {100 * (c['reference_mean'] / truth - 1):+.4f} %",
+            flush=True,
+        )
+
+
 def self_test(case, spp, args):
-    """Mitsuba against itself with other seeds must agree; with the case's deliberate mistake it must not."""
+    """Mitsuba must agree with itself in other seeds, but not with the case's deliberate mistake."""
     first, _ = reference.render(case, HERE, spp, REFERENCE_SEEDS, args.cache)
     second, seconds = reference.render(case, HERE, spp, SELF_SEEDS, args.cache)
     result = ztest.compare_images(first, second)
@@ -104,20 +142,35 @@ def self_test(case, spp, args):
 
 def compare(case, spp, args):
     first, a = reference.render(case, HERE, spp, REFERENCE_SEEDS, args.cache)
-    second, b = parhelion_render(args.parhelion, case, args.image_spp or spp, range(1, args.seeds + 1), args.extra)
+    second, b = parhelion_render(
+        args.parhelion, case, args.image_spp or spp, range(1, args.seeds + 1), args.extra
+    )
     result = ztest.compare_images(first, second)
     if args.images:
         write_pictures(args.images, case["name"], first, second)
     print_result(case["name"], result, (a, b))
+    print_truth(case, result)
     return all(c["pass"] for c in result.values()), result
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--parhelion", help="the program to test")
-    parser.add_argument("--scenes", nargs="*", help="names of cases, or beginnings of names; default all")
-    parser.add_argument("--spp", type=int, help="samples a pixel in all, instead of each case's own")
-    parser.add_argument("--image-spp", type=int, help="samples a pixel in all for Parhelion (default as Mitsuba)")
+    parser.add_argument(
+        "--scenes", nargs="*", help="names of cases, or beginnings of names; default all"
+    )
+    parser.add_argument("--scene", help="one scene file instead of the list (with --spp)")
+    parser.add_argument(
+        "-D", action="append", default=[], metavar="NAME=VALUE", help="parameter of --scene"
+    )
+    parser.add_argument(
+        "--spp", type=int, help="samples a pixel in all, instead of each case's own"
+    )
+    parser.add_argument(
+        "--image-spp", type=int, help="samples a pixel in all for Parhelion (default as Mitsuba)"
+    )
     parser.add_argument("--seeds", type=int, default=8, help="independent renders with Parhelion")
     parser.add_argument("--cache", help="folder that keeps Mitsuba's renders")
     parser.add_argument("--images", help="folder for PNGs of both and of the difference")
@@ -133,7 +186,16 @@ def main():
     if not (args.parhelion or args.self_test or args.references_only):
         sys.exit("one of --parhelion, --self-test and --references-only is needed")
     cases = json.loads((HERE / "cases.json").read_text())["cases"]
-    if args.scenes:
+    if args.scene:
+        cases = [
+            {
+                "name": pathlib.Path(args.scene).parent.name + "_" + pathlib.Path(args.scene).stem,
+                "scene": str(pathlib.Path(args.scene).resolve()),
+                "spp": 1024,
+                "parameters": dict(d.split("=", 1) for d in args.D),
+            }
+        ]
+    elif args.scenes:
         cases = [c for c in cases if any(c["name"].startswith(s) for s in args.scenes)]
     report, differing, broken = {}, [], []
     for case in cases:
@@ -152,8 +214,12 @@ def main():
     if args.json:
         pathlib.Path(args.json).write_text(json.dumps(report, indent=1) + "\n")
     print(f"{len(cases)} cases, {len(differing)} differ, {len(broken)} could not be rendered")
-    print("\n".join(["differ: " + " ".join(differing)] * bool(differing)
-                    + ["could not be rendered: " + " ".join(broken)] * bool(broken)))
+    print(
+        "\n".join(
+            ["differ: " + " ".join(differing)] * bool(differing)
+            + ["could not be rendered: " + " ".join(broken)] * bool(broken)
+        )
+    )
     return 2 if broken else 1 if differing else 0
 
 

@@ -8,7 +8,7 @@ FOLDER = pathlib.Path(__file__).parent / "scenes" / "meshes"
 
 
 def grid(columns, rows, surface):
-    """Rows x columns quads over (u, v) in [0, 1]^2, as points, uvs and quads without shared seams."""
+    """Rows x columns quads over (u, v) in [0, 1]^2, as points, uvs and quads; seams stay open."""
     points, uvs, quads = [], [], []
     for row in range(rows + 1):
         for column in range(columns + 1):
@@ -29,8 +29,11 @@ def normals_of(surface, uvs):
     for u, v in uvs:
         du = [b - a for a, b in zip(surface(u - h, v), surface(u + h, v))]
         dv = [b - a for a, b in zip(surface(u, v - h), surface(u, v + h))]
-        n = (du[1] * dv[2] - du[2] * dv[1], du[2] * dv[0] - du[0] * dv[2],
-             du[0] * dv[1] - du[1] * dv[0])
+        n = (
+            du[1] * dv[2] - du[2] * dv[1],
+            du[2] * dv[0] - du[0] * dv[2],
+            du[0] * dv[1] - du[1] * dv[0],
+        )
         length = math.sqrt(sum(x * x for x in n))
         result.append(tuple(x / length for x in n))
     return result
@@ -70,14 +73,22 @@ def write_obj(name, points, faces, uvs=None, normals=None):
 
 def write_ply(name, points, faces, uvs=None, normals=None, binary=True):
     fields = ["x", "y", "z"] + (["nx", "ny", "nz"] if normals else []) + (["u", "v"] if uvs else [])
-    vertices = [tuple(p) + (tuple(normals[i]) if normals else ()) + (tuple(uvs[i]) if uvs else ())
-                for i, p in enumerate(points)]
-    triangles = [t for f in faces for t in ((f[0], f[1], f[2]), (f[0], f[2], f[-1]))[:len(f) - 2]]
-    header = ["ply", f"format {'binary_little_endian' if binary else 'ascii'} 1.0",
-              f"element vertex {len(vertices)}"]
+    vertices = [
+        tuple(p) + (tuple(normals[i]) if normals else ()) + (tuple(uvs[i]) if uvs else ())
+        for i, p in enumerate(points)
+    ]
+    triangles = [t for f in faces for t in ((f[0], f[1], f[2]), (f[0], f[2], f[-1]))[: len(f) - 2]]
+    header = [
+        "ply",
+        f"format {'binary_little_endian' if binary else 'ascii'} 1.0",
+        f"element vertex {len(vertices)}",
+    ]
     header += [f"property float {field}" for field in fields]
-    header += [f"element face {len(triangles)}", "property list uchar int vertex_indices",
-               "end_header"]
+    header += [
+        f"element face {len(triangles)}",
+        "property list uchar int vertex_indices",
+        "end_header",
+    ]
     data = ("\n".join(header) + "\n").encode()
     if binary:
         data += b"".join(struct.pack(f"<{len(v)}f", *v) for v in vertices)

@@ -1,4 +1,4 @@
-"""Renders a case with Mitsuba 3 (scalar_rgb, one thread) in several independent seeds, and keeps the results."""
+"""Renders a case with Mitsuba 3 (scalar_rgb, one thread) in several seeds and keeps the result."""
 
 import hashlib
 import json
@@ -17,8 +17,11 @@ SUPERSAMPLING = 12  # sub-pixels a side, for filters
 
 
 def load(scene, parameters, supersampling=1):
-    """The scene, with the robust intersection flag, no merging of meshes (it would renumber primitives), float32 film;
-    with supersampling, a box filter and that many times the size in each direction."""
+    """The scene with the robust intersection flag and a float32 film.
+
+    Meshes are not merged (that would renumber primitives). With supersampling: a box filter and
+    that many times the size in each direction.
+    """
     config = mitsuba.parser.ParserConfig("scalar_rgb")
     config.merge_meshes = False
     config.merge_equivalent = False
@@ -56,18 +59,20 @@ def filter_weights(kind, x, stddev=0.5, radius=1.0, B=1 / 3, C=1 / 3, lobes=3):
     if kind == "tent":
         return np.maximum(0, 1 - x / radius)
     if kind == "gaussian":
-        return np.maximum(0, np.exp(-x**2 / (2 * stddev**2)) - np.exp(-8.0))
+        return np.maximum(0, np.exp(-(x**2) / (2 * stddev**2)) - np.exp(-8.0))
     if kind == "lanczos":
         return np.where(x < lobes, np.sinc(x) * np.sinc(x / lobes), 0)
     if kind == "catmullrom":
         B, C = 0.0, 0.5
     near = ((12 - 9 * B - 6 * C) * x**3 + (-18 + 12 * B + 6 * C) * x**2 + (6 - 2 * B)) / 6
-    far = ((-B - 6 * C) * x**3 + (6 * B + 30 * C) * x**2 + (-12 * B - 48 * C) * x + (8 * B + 24 * C)) / 6
+    far = (
+        (-B - 6 * C) * x**3 + (6 * B + 30 * C) * x**2 + (-12 * B - 48 * C) * x + (8 * B + 24 * C)
+    ) / 6
     return np.where(x < 1, near, np.where(x < 2, far, 0))
 
 
 def filter_matrix(pixels, spec):
-    """(pixels, pixels * SUPERSAMPLING): normalised weights of the sub-pixels, each averaged over the sub-pixel."""
+    """(pixels, pixels * SUPERSAMPLING): normalised weights, each averaged over its sub-pixel."""
     inner = 16
     fine = (np.arange(pixels * SUPERSAMPLING * inner) + 0.5) / (SUPERSAMPLING * inner)
     centres = np.arange(pixels) + 0.5
@@ -88,22 +93,41 @@ def render_seed(scene, spp, seed, filter_spec):
 
 
 def fingerprint(case, folder, spp, seeds):
-    """Changes when anything the reference depends on does: every file of the scene's folder, parameters, samples."""
-    digest = hashlib.sha256(json.dumps([case.get("parameters"), case.get("filter"), spp, seeds,
-                                        SUPERSAMPLING, mitsuba.__version__]).encode())
+    """Changes when anything the reference depends on does: files, parameters, samples, Mitsuba."""
+    digest = hashlib.sha256(
+        json.dumps(
+            [
+                case.get("parameters"),
+                case.get("filter"),
+                spp,
+                seeds,
+                SUPERSAMPLING,
+                mitsuba.__version__,
+            ]
+        ).encode()
+    )
     for path in sorted(pathlib.Path(folder).rglob("*")):
-        if path.is_file() and (path.suffix != ".xml" or path.name == pathlib.Path(case["scene"]).name
-                               or path.parent.name == "parts"):
+        if path.is_file() and (
+            path.suffix != ".xml"
+            or path.name == pathlib.Path(case["scene"]).name
+            or path.parent.name == "parts"
+        ):
             digest.update(path.name.encode() + path.read_bytes())
     return digest.hexdigest()[:16]
 
 
 def render(case, base, spp, seeds, cache=None):
-    """The case in len(seeds) renders that share spp samples a pixel. Returns (dict channel -> (S, H, W), seconds)."""
+    """The case in len(seeds) renders that share spp samples a pixel.
+
+    Returns (dict channel -> (S, H, W), seconds).
+    """
     scene_file = (base / case["scene"]).resolve()
     kept = None
     if cache:
-        kept = pathlib.Path(cache) / f"{case['name']}-{fingerprint(case, scene_file.parent, spp, seeds)}.npz"
+        kept = (
+            pathlib.Path(cache)
+            / f"{case['name']}-{fingerprint(case, scene_file.parent, spp, seeds)}.npz"
+        )
         if kept.exists():
             with np.load(kept) as data:
                 return {name: data[name] for name in data.files}, 0.0
@@ -111,8 +135,10 @@ def render(case, base, spp, seeds, cache=None):
     supersampling = SUPERSAMPLING if case.get("filter", {}).get("kind", "box") != "box" else 1
     scene = load(scene_file, case.get("parameters", {}), supersampling)
     each = max(1, spp // (len(seeds) * supersampling**2))
-    images = [render_seed(scene, each, seed, case.get("filter") if supersampling > 1 else None)
-              for seed in seeds]
+    images = [
+        render_seed(scene, each, seed, case.get("filter") if supersampling > 1 else None)
+        for seed in seeds
+    ]
     stacks = {name: np.stack([image[name] for image in images]) for name in images[0]}
     if kept:
         kept.parent.mkdir(parents=True, exist_ok=True)
