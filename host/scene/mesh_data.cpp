@@ -1,0 +1,118 @@
+// A mesh as its file holds it, and what turns it into a Mesh of the scene.
+#include "host/scene/mesh_data.h"
+
+#include "host/scene/text.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace parhelion {
+
+namespace {
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool is_zero(const glm::dvec3& v) { return v == glm::dvec3(0.0); }
+
+/// Unit vector, safe for lengths whose square leaves the range of double.
+glm::dvec3 direction_of(const glm::dvec3& v) {
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return largest > 0.0 ? glm::normalize(v / largest) : glm::dvec3(0.0);
+}
+
+glm::dvec3 geometric_normal(const Mesh& mesh, const glm::uvec3& t) {
+    const glm::dvec3 a = mesh.positions[t[0]];
+    return direction_of(glm::cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a));
+}
+
+/// Angle between unit vectors, accurate when they are nearly parallel (Kahan).
+double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+    return 2.0 * std::atan2(glm::length(a - b), glm::length(a + b));
+}
+
+/// Fills the zero entries of `mesh.normals`; returns how many stay undefined by the average because
+/// the faces around the vertex cancel out (they get the normal of one face).
+std::size_t fill_normals(Mesh& mesh) {
+    std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));
+    std::vector<glm::dvec3> some_face(mesh.positions.size(), glm::dvec3(0.0));
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 n = geometric_normal(mesh, t);
+        if (is_zero(n)) continue;
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 p = mesh.positions[t[i]];
+            const glm::dvec3 d0 = direction_of(mesh.positions[t[(i + 1) % 3]] - p);
+            const glm::dvec3 d1 = direction_of(mesh.positions[t[(i + 2) % 3]] - p);
+            sums[t[i]] += n * angle_between(d0, d1);
+            some_face[t[i]] = n;
+        }
+    }
+    std::size_t cancelled = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        if (!is_zero(mesh.normals[i])) continue;
+        mesh.normals[i] = direction_of(sums[i]);
+        if (!is_zero(mesh.normals[i])) continue;
+        cancelled += !is_zero(some_face[i]);
+        // A vertex of degenerate triangles only is never seen; any unit vector will do.
+        mesh.normals[i] = is_zero(some_face[i]) ? glm::dvec3(0, 0, 1) : some_face[i];
+    }
+    return cancelled;
+}
+
+/// Turns triangles so that their vertex normals point to the front.
+void orient_by_normals(Mesh& mesh) {
+    for (glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 shading = mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
+        if (glm::dot(geometric_normal(mesh, t), shading) < 0.0) std::swap(t[1], t[2]);
+    }
+}
+
+void flip(Mesh& mesh) {
+    for (glm::uvec3& t : mesh.triangles)
+        std::swap(t[1], t[2]);
+    for (glm::dvec3& n : mesh.normals)
+        n = -n;
+}
+
+} // namespace
+
+glm::dmat3 normal_matrix(const glm::dmat4& to_world) {
+    const glm::dmat3 m(to_world);
+    const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
+                               glm::cross(m[0], m[1]));
+    return glm::dot(m[0], cofactors[0]) < 0.0 ? -cofactors : cofactors;
+}
+
+Mesh make_mesh(MeshData data, const MeshOptions& options, const SourceLocation& place,
+               std::vector<std::string>& notes) {
+    if (data.triangles.empty()) refuse(place, "the mesh holds no triangle");
+    for (const std::string& note : data.notes)
+        notes.push_back(place.to_string() + ": " + note);
+    Mesh mesh{std::move(data.positions), {}, std::move(data.uvs), std::move(data.triangles)};
+    for (glm::dvec3& p : mesh.positions) {
+        p = glm::dvec3(options.to_world * glm::dvec4(p, 1.0));
+        if (!is_finite(p)) refuse(place, "a vertex leaves the range of numbers under to_world");
+    }
+    if (!options.face_normals) {
+        const glm::dmat3 to_world = normal_matrix(options.to_world);
+        mesh.normals = std::move(data.normals);
+        for (glm::dvec3& n : mesh.normals)
+            n = direction_of(to_world * direction_of(n));
+        const bool from_file = !mesh.normals.empty();
+        mesh.normals.resize(mesh.positions.size(), glm::dvec3(0.0));
+        const std::size_t cancelled = fill_normals(mesh);
+        if (cancelled > 0)
+            notes.push_back(place.to_string() + ": " + std::to_string(cancelled) +
+                            " vertices have no defined smooth normal; one of their faces' is used");
+        if (from_file) orient_by_normals(mesh);
+    }
+    if (options.flip_normals) flip(mesh);
+    return mesh;
+}
+
+} // namespace parhelion

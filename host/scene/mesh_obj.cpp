@@ -1,0 +1,193 @@
+// Wavefront OBJ meshes.
+#include "host/scene/mesh_obj.h"
+
+#include "host/scene/file_finder.h"
+#include "host/scene/text.h"
+
+// Compiled in rather than linked: in double precision, and seen by the sanitizers.
+#define TINYOBJLOADER_USE_DOUBLE
+#define TINYOBJLOADER_IMPLEMENTATION
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <sstream>
+
+namespace parhelion {
+
+namespace {
+
+constexpr std::size_t max_obj_bytes = std::size_t(4) << 30;
+constexpr std::size_t max_corners = 255; ///< the library counts them in a byte
+constexpr std::string_view blanks = " \t\r";
+
+/// The library takes 0 for a number it cannot read; so all numbers are looked at beforehand.
+void check_numbers(const std::vector<std::string_view>& words, std::size_t needed,
+                   const SourceLocation& place) {
+    if (words.size() < needed + 1)
+        refuse(place, in_quotes(words[0]) + " takes at least " + std::to_string(needed) +
+                          " numbers, found " + std::to_string(words.size() - 1));
+    for (std::size_t i = 1; i < words.size(); ++i)
+        if (!parse_number(words[i])) refuse(place, in_quotes(words[i]) + " is not a finite number");
+}
+
+/// Looks at every line that the library will read.
+class TextCheck {
+public:
+    explicit TextCheck(const std::string& name) : place_{name, 0} {}
+    void check(std::string_view text);
+
+private:
+    void check_line(std::string_view line);
+    void check_corner(std::string_view corner) const;
+
+    SourceLocation place_;
+    std::array<std::int64_t, 3> counts_{}; ///< of v, vt and vn so far
+};
+
+/// v, v/vt, v//vn or v/vt/vn. Indices count from 1, or back from -1; one that reaches back too far
+/// would read as absent.
+void TextCheck::check_corner(std::string_view corner) const {
+    std::size_t part = 0;
+    for (std::size_t start = 0; start <= corner.size(); ++part) {
+        const std::size_t end = std::min(corner.find('/', start), corner.size());
+        const std::string_view index = corner.substr(start, end - start);
+        const bool left_out = index.empty() && part == 1 && end < corner.size();
+        const std::int64_t value = parse_integer(index).value_or(0);
+        if (part > 2 || (!left_out && (value == 0 || value > std::numeric_limits<int>::max())))
+            refuse(place_, in_quotes(corner) + " is not a face corner (v, v/vt, v//vn, v/vt/vn; "
+                                               "indices start at 1)");
+        if (value < -counts_[part])
+            refuse(place_, in_quotes(corner) + " counts back beyond the first of " +
+                               std::to_string(counts_[part]));
+        start = end + 1;
+    }
+}
+
+void TextCheck::check_line(std::string_view line) {
+    const std::vector<std::string_view> words = split(line.substr(0, line.find('#')), blanks);
+    if (words.empty()) return;
+    if (words[0] == "v" || words[0] == "vn") {
+        check_numbers(words, 3, place_);
+        ++counts_[words[0] == "v" ? 0 : 2];
+    } else if (words[0] == "vt") {
+        check_numbers(words, 1, place_);
+        ++counts_[1];
+    } else if (words[0] == "f") {
+        if (words.size() < 4 || words.size() > max_corners + 1)
+            refuse(place_, "a face of " + std::to_string(words.size() - 1) +
+                               " corners (accepted: 3 to " + std::to_string(max_corners) + ")");
+        for (std::size_t i = 1; i < words.size(); ++i)
+            check_corner(words[i]);
+    }
+}
+
+void TextCheck::check(std::string_view text) {
+    for (std::size_t start = 0; start < text.size();) {
+        const std::size_t end = std::min(text.find('\n', start), text.size());
+        ++place_.line;
+        check_line(text.substr(start, end - start));
+        start = end + 1;
+    }
+}
+
+/// Corners that share position, texture and normal index become one vertex.
+class VertexTable {
+public:
+    VertexTable(const tinyobj::attrib_t& attributes, bool flip_v, const SourceLocation& place)
+        : attributes_(attributes), flip_v_(flip_v), place_(place) {}
+
+    std::uint32_t vertex(const tinyobj::index_t& corner);
+    MeshData mesh;
+
+private:
+    const double* entry(const std::vector<double>& values, int index, std::size_t width,
+                        const char* what) const;
+
+    const tinyobj::attrib_t& attributes_;
+    bool flip_v_;
+    const SourceLocation& place_;
+    std::map<std::array<int, 3>, std::uint32_t> known_;
+};
+
+const double* VertexTable::entry(const std::vector<double>& values, int index, std::size_t width,
+                                 const char* what) const {
+    const std::size_t count = values.size() / width;
+    if (index < 0 || static_cast<std::size_t>(index) >= count)
+        refuse(place_, std::string("a face uses ") + what + " " + std::to_string(index + 1) +
+                           " of " + std::to_string(count));
+    return &values[static_cast<std::size_t>(index) * width];
+}
+
+std::uint32_t VertexTable::vertex(const tinyobj::index_t& corner) {
+    const std::array<int, 3> key = {corner.vertex_index, corner.texcoord_index,
+                                    corner.normal_index};
+    const auto [known, added] =
+        known_.emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
+    if (!added) return known->second;
+    const double* const p = entry(attributes_.vertices, key[0], 3, "vertex");
+    mesh.positions.emplace_back(p[0], p[1], p[2]);
+    glm::dvec2 uv(0.0);
+    if (key[1] != -1) {
+        const double* const t = entry(attributes_.texcoords, key[1], 2, "texture vertex");
+        uv = {t[0], flip_v_ ? 1.0 - t[1] : t[1]};
+    }
+    mesh.uvs.push_back(uv);
+    glm::dvec3 normal(0.0);
+    if (key[2] != -1) {
+        const double* const n = entry(attributes_.normals, key[2], 3, "normal");
+        normal = {n[0], n[1], n[2]};
+        if (normal == glm::dvec3(0.0))
+            refuse(place_, "vertex normal " + std::to_string(key[2] + 1) + " is zero");
+    }
+    mesh.normals.push_back(normal);
+    return known->second;
+}
+
+void add_faces(VertexTable& table, const tinyobj::mesh_t& faces, const SourceLocation& place) {
+    std::size_t first = 0;
+    for (const std::size_t corners : faces.num_face_vertices) {
+        if (corners < 3 || first + corners > faces.indices.size())
+            refuse(place, "a face has an unusable number of corners");
+        std::vector<std::uint32_t> polygon;
+        for (std::size_t i = 0; i < corners; ++i)
+            polygon.push_back(table.vertex(faces.indices[first + i]));
+        for (std::size_t i = 2; i < corners; ++i)
+            table.mesh.triangles.emplace_back(polygon[0], polygon[i - 1], polygon[i]);
+        first += corners;
+    }
+    if (first != faces.indices.size()) refuse(place, "the faces do not add up");
+}
+
+} // namespace
+
+MeshData load_obj(const std::filesystem::path& path, bool flip_v, const SourceLocation& place) {
+    const SourceLocation file{path.string(), 0};
+    std::string text = read_whole_file(path, place, max_obj_bytes);
+    TextCheck(file.file).check(text);
+    tinyobj::attrib_t attributes;
+    std::vector<tinyobj::shape_t> shapes;
+    std::vector<tinyobj::material_t> materials;
+    std::string warnings, errors;
+    std::istringstream stream(std::move(text));
+    const bool good = tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors,
+                                       &stream, nullptr, /*triangulate=*/false,
+                                       /*default_vcols_fallback=*/false);
+    if (!good) refuse(file, "not a usable OBJ file: " + errors.substr(0, errors.find('\n')));
+    VertexTable table(attributes, flip_v, file);
+    bool others = false;
+    for (const tinyobj::shape_t& shape : shapes) {
+        add_faces(table, shape.mesh, file);
+        others |= !shape.lines.indices.empty() || !shape.points.indices.empty();
+    }
+    if (others) table.mesh.notes.push_back(file.file + ": lines and points are not drawn");
+    if (attributes.texcoords.empty()) table.mesh.uvs.clear();
+    const auto is_zero = [](const glm::dvec3& n) { return n == glm::dvec3(0.0); };
+    if (std::all_of(table.mesh.normals.begin(), table.mesh.normals.end(), is_zero))
+        table.mesh.normals.clear();
+    return std::move(table.mesh);
+}
+
+} // namespace parhelion

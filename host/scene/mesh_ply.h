@@ -1,0 +1,16 @@
+// Stanford PLY meshes, text and binary.
+#pragma once
+
+#include "host/scene/mesh_data.h"
+
+#include <filesystem>
+
+namespace parhelion {
+
+/// Positions, normals (nx ny nz) and texture coordinates (u v, s t, or texture_u texture_v) of the
+/// `vertex` element and the polygons of `face`, as fans around their first corner. Other properties
+/// are skipped with a note. `flip_v` turns v into 1 - v.
+/// Throws InputError "<path>:<line>: ..." for what cannot be read, `place` standing for the asker.
+MeshData load_ply(const std::filesystem::path& path, bool flip_v, const SourceLocation& place);
+
+} // namespace parhelion

@@ -1,0 +1,209 @@
+// The bsdf plugins.
+#include "host/scene/mitsuba/plugin_table.h"
+#include "host/scene/mitsuba/plugins.h"
+#include "host/scene/mitsuba/properties.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace parhelion::mitsuba {
+
+namespace {
+
+struct NamedIndex {
+    std::string_view name;
+    double value;
+};
+
+/// Indices of refraction at 589 nm and room temperature (Hecht, Optics; the names are Mitsuba's).
+constexpr std::array<NamedIndex, 23> named_indices = {
+    {{"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
+     {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},
+     {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
+     {"glycerol", 1.4729}, {"benzene", 1.501},          {"silicone oil", 1.52045},
+     {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
+     {"pyrex", 1.470},     {"acrylic glass", 1.49},     {"polypropylene", 1.49},
+     {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
+     {"pet", 1.5750},      {"diamond", 2.419}}};
+
+struct ConductorPreset {
+    std::string_view name;
+    Rgb eta, k;
+};
+
+const ConductorPreset conductor_presets[] = {
+#include "host/scene/mitsuba/conductor_presets.inl"
+};
+
+template<typename Entries>
+std::string names_of(const Entries& entries) {
+    std::string result;
+    for (const auto& entry : entries)
+        result += (result.empty() ? "" : ", ") + std::string(entry.name);
+    return result;
+}
+
+bool is_text(const Properties& p, std::string_view name) {
+    for (const Parameter& parameter : p.object().parameters)
+        if (parameter.name == name) return std::holds_alternative<std::string>(parameter.value);
+    return false;
+}
+
+/// A number, or the name of a medium.
+double read_index(Properties& p, std::string_view name, double missing) {
+    if (!is_text(p, name)) return p.number(name, missing, positive);
+    const std::string wanted = lower_case(p.text(name, ""));
+    for (const NamedIndex& entry : named_indices)
+        if (entry.name == wanted) return entry.value;
+    p.refuse_value(name, in_quotes(wanted), "a number, or one of " + names_of(named_indices));
+}
+
+double read_relative_index(Properties& p) {
+    const double inside = read_index(p, "int_ior", 1.5046);
+    return inside / read_index(p, "ext_ior", 1.000277);
+}
+
+Rgb read_specular(Properties& p, const char* name) {
+    return p.color(name, Rgb(1.0), SpectrumUse::reflectance);
+}
+
+struct ComplexIndex {
+    Rgb eta{0.0}, k{1.0}; ///< reflects everything, which is what Mitsuba 3 does by default
+};
+
+ComplexIndex read_complex_index(Properties& p) {
+    const bool spectra = p.has("eta") || p.has("k");
+    if (!p.has("material")) {
+        ComplexIndex index;
+        index.eta = p.color("eta", index.eta, SpectrumUse::unbounded);
+        index.k = p.color("k", index.k, SpectrumUse::unbounded);
+        return index;
+    }
+    if (spectra)
+        p.refuse_value("material", "given together with \"eta\" or \"k\"", "one or the other");
+    const std::string wanted = p.text("material", "none");
+    for (const ConductorPreset& preset : conductor_presets)
+        if (preset.name == wanted) return {preset.eta, preset.k};
+    p.refuse_value("material", in_quotes(wanted), names_of(conductor_presets));
+}
+
+struct Roughness {
+    MicrofacetDistribution distribution;
+    double alpha_u, alpha_v;
+};
+
+Roughness read_roughness(Properties& p) {
+    const std::size_t kind = p.choice("distribution", "beckmann", {"beckmann", "ggx"});
+    const MicrofacetDistribution distribution =
+        kind == 0 ? MicrofacetDistribution::beckmann : MicrofacetDistribution::ggx;
+    // Sampling all or only the visible normals gives the same picture with other noise.
+    if (!p.boolean("sample_visible", true))
+        p.note("sample_visible", "\"sample_visible\" is taken as true; only the noise differs");
+    const bool split = p.has("alpha_u") || p.has("alpha_v");
+    if (!split) {
+        const double alpha = p.number("alpha", 0.1, positive);
+        return {distribution, alpha, alpha};
+    }
+    if (p.has("alpha"))
+        p.refuse_value("alpha", "given together with \"alpha_u\" or \"alpha_v\"",
+                       "\"alpha\", or both of the others");
+    const double alpha_u = p.required_number("alpha_u", positive);
+    return {distribution, alpha_u, p.required_number("alpha_v", positive)};
+}
+
+Bsdf read_diffuse(Properties& p) {
+    return DiffuseBsdf{p.color("reflectance", Rgb(0.5), SpectrumUse::reflectance)};
+}
+
+Bsdf read_conductor(Properties& p) {
+    const ComplexIndex index = read_complex_index(p);
+    return ConductorBsdf{index.eta, index.k, read_specular(p, "specular_reflectance")};
+}
+
+Bsdf read_dielectric(Properties& p) {
+    const double eta = read_relative_index(p);
+    return DielectricBsdf{eta, read_specular(p, "specular_reflectance"),
+                          read_specular(p, "specular_transmittance")};
+}
+
+Bsdf read_thin_dielectric(Properties& p) {
+    const double eta = read_relative_index(p);
+    return ThinDielectricBsdf{eta, read_specular(p, "specular_reflectance"),
+                              read_specular(p, "specular_transmittance")};
+}
+
+Bsdf read_rough_conductor(Properties& p) {
+    const Roughness r = read_roughness(p);
+    const ComplexIndex index = read_complex_index(p);
+    return RoughConductorBsdf{r.distribution, r.alpha_u, r.alpha_v,
+                              index.eta,      index.k,   read_specular(p, "specular_reflectance")};
+}
+
+Bsdf read_rough_dielectric(Properties& p) {
+    const Roughness r = read_roughness(p);
+    const double eta = read_relative_index(p);
+    if (eta == 1.0) p.refuse_value("int_ior", "equal to \"ext_ior\"", "two different indices");
+    return RoughDielectricBsdf{r.distribution,
+                               r.alpha_u,
+                               r.alpha_v,
+                               eta,
+                               read_specular(p, "specular_reflectance"),
+                               read_specular(p, "specular_transmittance")};
+}
+
+Bsdf read_null(Properties&) { return NullBsdf{}; }
+
+SurfaceMaterials::Back back_of(const Bsdf& bsdf) {
+    const bool one_sided = std::holds_alternative<DiffuseBsdf>(bsdf) ||
+                           std::holds_alternative<ConductorBsdf>(bsdf) ||
+                           std::holds_alternative<RoughConductorBsdf>(bsdf);
+    return one_sided ? SurfaceMaterials::Back::black : SurfaceMaterials::Back::same;
+}
+
+/// The front of each nested material; `twosided` around `twosided` changes nothing.
+SurfaceMaterials read_two_sided(Properties& p, const Document& document, Notes& notes) {
+    const std::vector<const Child*> nested = p.children("bsdf");
+    p.finish();
+    if (nested.empty() || nested.size() > 2)
+        refuse(p.location(),
+               fmt::format("{} holds {} bsdfs (accepted: 1 or 2)", p.title(), nested.size()));
+    std::vector<Material> sides;
+    for (const Child* const child : nested) {
+        SurfaceMaterials side = read_bsdf(document, p.target(*child), notes);
+        if (side.back_kind == SurfaceMaterials::Back::same &&
+            back_of(side.front.bsdf) == SurfaceMaterials::Back::same)
+            refuse(child->location, fmt::format("{} cannot hold the bsdf plugin {}, which light "
+                                                "passes through",
+                                                p.title(), in_quotes(p.target(*child).plugin)));
+        if (side.front.id.empty()) side.front.id = p.object().id;
+        sides.push_back(std::move(side.front));
+    }
+    if (sides.size() == 1) return {sides[0], SurfaceMaterials::Back::same, {}};
+    return {sides[0], SurfaceMaterials::Back::other, sides[1]};
+}
+
+using BsdfReader = Bsdf (*)(Properties&);
+
+constexpr PluginTable<BsdfReader, 8> bsdf_plugins = {{{"diffuse", read_diffuse},
+                                                      {"conductor", read_conductor},
+                                                      {"dielectric", read_dielectric},
+                                                      {"thindielectric", read_thin_dielectric},
+                                                      {"roughconductor", read_rough_conductor},
+                                                      {"roughdielectric", read_rough_dielectric},
+                                                      {"null", read_null},
+                                                      {"twosided", nullptr}}};
+
+} // namespace
+
+SurfaceMaterials read_bsdf(const Document& document, const Object& object, Notes& notes) {
+    Properties p(document, object, notes);
+    const BsdfReader read = find_plugin(bsdf_plugins, object);
+    if (!read) return read_two_sided(p, document, notes);
+    SurfaceMaterials result{{object.id, object.location, read(p)}, {}, {}};
+    result.back_kind = back_of(result.front.bsdf);
+    p.finish();
+    return result;
+}
+
+} // namespace parhelion::mitsuba

@@ -1,0 +1,116 @@
+// The emitter plugins.
+#include "host/scene/mitsuba/plugin_table.h"
+#include "host/scene/mitsuba/plugins.h"
+#include "host/scene/mitsuba/properties.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace parhelion::mitsuba {
+
+namespace {
+
+constexpr NumberRule half_angle{[](double v) { return v > 0.0 && v < 180.0; },
+                                "degrees greater than 0 and less than 180"};
+
+Rgb read_emission(Properties& p, const char* name) {
+    return p.color(name, Rgb(1.0), SpectrumUse::emission);
+}
+
+void refuse_together(Properties& p, const char* name) {
+    if (p.has(name) && p.has("to_world"))
+        p.refuse_value(name, "given together with \"to_world\"", "one or the other");
+}
+
+glm::dvec3 unit_direction(Properties& p, const char* name, const glm::dvec3& direction) {
+    const glm::dvec3 unit = glm::normalize(direction);
+    if (!(glm::length(unit) > 0.5)) p.refuse_value(name, "without a direction", "not zero");
+    return unit;
+}
+
+Emitter read_point(Properties& p) {
+    refuse_together(p, "position");
+    const glm::dvec3 moved(p.transform("to_world")[3]);
+    return PointEmitter{p.vector("position", moved), read_emission(p, "intensity")};
+}
+
+/// The cone keeps its shape only under rotations, translations and one scale for all axes.
+void check_similarity(Properties& p, const glm::dmat4& to_world) {
+    constexpr double tolerance = 1e-4;
+    const glm::dmat3 m(to_world);
+    const double scale = glm::length(m[2]);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j <= i; ++j)
+            if (!(std::abs(glm::dot(m[i], m[j]) / (scale * scale) - (i == j ? 1.0 : 0.0)) <
+                  tolerance))
+                p.refuse_value("to_world", "a transform that deforms the cone of light",
+                               "rotation, translation, uniform scale");
+}
+
+Emitter read_spot(Properties& p) {
+    const glm::dmat4 to_world = p.transform("to_world");
+    check_similarity(p, to_world);
+    const double cutoff = p.number("cutoff_angle", 20.0, half_angle);
+    const double beam = p.number("beam_width", cutoff * 3.0 / 4.0, non_negative);
+    if (beam > cutoff) p.refuse_value("beam_width", std::to_string(beam), "up to cutoff_angle");
+    return SpotEmitter{glm::dvec3(to_world[3]),
+                       unit_direction(p, "to_world", glm::dvec3(to_world[2])), glm::radians(cutoff),
+                       glm::radians(beam), read_emission(p, "intensity")};
+}
+
+Emitter read_directional(Properties& p) {
+    refuse_together(p, "direction");
+    const glm::dvec3 turned(p.transform("to_world")[2]);
+    const char* const name = p.has("direction") ? "direction" : "to_world";
+    return DirectionalEmitter{unit_direction(p, name, p.vector("direction", turned)),
+                              read_emission(p, "irradiance")};
+}
+
+Emitter read_constant(Properties& p) {
+    p.transform("to_world"); // it looks the same from every side
+    return ConstantEmitter{read_emission(p, "radiance")};
+}
+
+using EmitterReader = Emitter (*)(Properties&);
+
+constexpr PluginTable<EmitterReader, 5> emitter_plugins = {{{"point", read_point},
+                                                            {"spot", read_spot},
+                                                            {"directional", read_directional},
+                                                            {"constant", read_constant},
+                                                            {"area", nullptr}}};
+
+/// How often Mitsuba picks this emitter; zero would mean that it picks none of its light.
+void read_sampling_weight(Properties& p) {
+    if (p.number("sampling_weight", 1.0, positive) != 1.0)
+        p.note("sampling_weight",
+               "\"sampling_weight\" is not used, emitters are picked by power; only the noise "
+               "differs");
+}
+
+} // namespace
+
+Emitter read_emitter(const Document& document, const Object& object, Notes& notes) {
+    Properties p(document, object, notes);
+    const EmitterReader read = find_plugin(emitter_plugins, object);
+    if (!read) refuse(object.location, p.title() + " can only stand inside a <shape>");
+    const Emitter emitter = read(p);
+    read_sampling_weight(p);
+    p.finish();
+    return emitter;
+}
+
+Rgb read_area_emitter(const Document& document, const Object& object, Notes& notes) {
+    Properties p(document, object, notes);
+    if (find_plugin(emitter_plugins, object))
+        refuse(object.location, p.title() + " cannot stand inside a <shape> (accepted: area)");
+    const Rgb radiance = read_emission(p, "radiance");
+    read_sampling_weight(p);
+    p.finish();
+    return radiance;
+}
+
+} // namespace parhelion::mitsuba

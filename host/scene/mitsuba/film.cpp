@@ -1,0 +1,122 @@
+// The film plugin and the reconstruction filters.
+#include "host/scene/mitsuba/plugin_table.h"
+#include "host/scene/mitsuba/plugins.h"
+#include "host/scene/mitsuba/properties.h"
+
+#include <fmt/format.h>
+
+namespace parhelion::mitsuba {
+
+namespace {
+
+constexpr std::int64_t max_side = 65536;
+constexpr std::int64_t max_pixels = std::int64_t(1) << 28;
+
+void read_crop(Properties& p, Film& film) {
+    const bool any = p.has("crop_offset_x") || p.has("crop_offset_y") || p.has("crop_width") ||
+                     p.has("crop_height");
+    const auto read = [&](const char* name, int missing, int lowest) {
+        return static_cast<int>(p.integer(name, missing, lowest, max_side));
+    };
+    const int x = read("crop_offset_x", 0, 0), y = read("crop_offset_y", 0, 0);
+    const int width = read("crop_width", film.width, 1);
+    const int height = read("crop_height", film.height, 1);
+    if (!any) return;
+    if (x + width > film.width || y + height > film.height)
+        refuse(p.location(), fmt::format("{}: the crop window {}x{} at ({}, {}) leaves the film of "
+                                         "{}x{}",
+                                         p.title(), width, height, x, y, film.width, film.height));
+    film.crop_x = x;
+    film.crop_y = y;
+    film.crop_width = width;
+    film.crop_height = height;
+}
+
+void read_formats(Properties& p, Film& film) {
+    constexpr PixelFormat pixels[] = {PixelFormat::luminance, PixelFormat::luminance_alpha,
+                                      PixelFormat::rgb,       PixelFormat::rgba,
+                                      PixelFormat::xyz,       PixelFormat::xyza};
+    film.pixel_format = pixels[p.choice(
+        "pixel_format", "rgb", {"luminance", "luminance_alpha", "rgb", "rgba", "xyz", "xyza"})];
+    constexpr ComponentFormat components[] = {ComponentFormat::float16, ComponentFormat::float32,
+                                              ComponentFormat::uint32};
+    film.component_format =
+        components[p.choice("component_format", "float16", {"float16", "float32", "uint32"})];
+    p.choice("file_format", "openexr", {"openexr", "exr"});
+}
+
+Film read_hdr_film(Properties& p) {
+    Film film;
+    film.width = static_cast<int>(p.integer("width", 768, 1, max_side));
+    film.height = static_cast<int>(p.integer("height", 576, 1, max_side));
+    if (std::int64_t(film.width) * film.height > max_pixels)
+        p.refuse_value("width", fmt::format("{} with a height of {}", film.width, film.height),
+                       fmt::format("{} pixels in all", max_pixels));
+    read_crop(p, film);
+    read_formats(p, film);
+    // All samples near the border count here, and sums are exact enough, whatever these say.
+    p.boolean("sample_border", false);
+    p.boolean("high_quality_edges", false);
+    p.boolean("compensate", false);
+    p.boolean("banner", true);
+    return film;
+}
+
+using FilmReader = Film (*)(Properties&);
+constexpr PluginTable<FilmReader, 1> film_plugins = {{{"hdrfilm", read_hdr_film}}};
+
+ReconstructionFilter read_box(Properties&) { return {.kind = FilterKind::box}; }
+
+ReconstructionFilter read_tent(Properties& p) {
+    return {.kind = FilterKind::tent, .radius = p.number("radius", 1.0, positive)};
+}
+
+ReconstructionFilter read_gaussian(Properties& p) {
+    return {.kind = FilterKind::gaussian, .stddev = p.number("stddev", 0.5, positive)};
+}
+
+ReconstructionFilter read_mitchell(Properties& p) {
+    return {.kind = FilterKind::mitchell,
+            .mitchell_a = p.number("B", 1.0 / 3.0),
+            .mitchell_b = p.number("C", 1.0 / 3.0)};
+}
+
+ReconstructionFilter read_catmull_rom(Properties&) { return {.kind = FilterKind::catmullrom}; }
+
+ReconstructionFilter read_lanczos(Properties& p) {
+    return {.kind = FilterKind::lanczos,
+            .lanczos_lobes = static_cast<int>(p.integer("lobes", 3, 1, 16))};
+}
+
+using FilterReader = ReconstructionFilter (*)(Properties&);
+
+constexpr PluginTable<FilterReader, 6> filter_plugins = {{{"box", read_box},
+                                                          {"tent", read_tent},
+                                                          {"gaussian", read_gaussian},
+                                                          {"mitchell", read_mitchell},
+                                                          {"catmullrom", read_catmull_rom},
+                                                          {"lanczos", read_lanczos}}};
+
+} // namespace
+
+ReconstructionFilter read_filter(const Document& document, const Object& object, Notes& notes) {
+    Properties p(document, object, notes);
+    const FilterReader read = find_plugin(filter_plugins, object);
+    const ReconstructionFilter filter = read(p);
+    p.finish();
+    return filter;
+}
+
+Film read_film(const Document& document, const Object& object, Notes& notes) {
+    Properties p(document, object, notes);
+    const FilmReader read = find_plugin(film_plugins, object);
+    Film film = read(p);
+    const std::vector<const Child*> filters = p.children("rfilter");
+    p.finish();
+    if (filters.size() > 1)
+        refuse(filters[1]->location, p.title() + " has more than one <rfilter>");
+    if (!filters.empty()) film.filter = read_filter(document, p.target(*filters[0]), notes);
+    return film;
+}
+
+} // namespace parhelion::mitsuba

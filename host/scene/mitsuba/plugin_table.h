@@ -1,0 +1,34 @@
+// Finding a plugin's reader by name in a table that is also the list of what is accepted.
+#pragma once
+
+#include "host/scene/mitsuba/document.h"
+#include "host/scene/text.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace parhelion::mitsuba {
+
+template<typename Read>
+struct PluginEntry {
+    std::string_view name;
+    Read read;
+};
+
+template<typename Read, std::size_t N>
+using PluginTable = std::array<PluginEntry<Read>, N>;
+
+/// The table's reader of `object`; throws InputError naming the plugin and all that are accepted.
+template<typename Read, std::size_t N>
+Read find_plugin(const PluginTable<Read, N>& table, const Object& object) {
+    std::string accepted;
+    for (const PluginEntry<Read>& entry : table) {
+        if (entry.name == object.plugin) return entry.read;
+        accepted += (accepted.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    refuse(object.location, object.tag + " plugin " + in_quotes(object.plugin) +
+                                " is not supported (accepted: " + accepted + ")");
+}
+
+} // namespace parhelion::mitsuba

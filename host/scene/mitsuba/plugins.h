@@ -1,0 +1,57 @@
+// The readers of each kind of plugin: from parameters to the types of the scene.
+//
+// Every reader knows its plugins from one table and throws InputError for a plugin or a parameter
+// that is not in it, with file and line.
+#pragma once
+
+#include "host/scene/mitsuba/document.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace parhelion::mitsuba {
+
+using Notes = std::vector<std::string>;
+
+/// A material for each side of a surface.
+struct SurfaceMaterials {
+    enum class Back {
+        black, ///< the back reflects nothing
+        same,  ///< the front's material looks at both sides
+        other, ///< `back`
+    };
+    Material front;
+    Back back_kind = Back::black;
+    Material back;
+};
+
+SurfaceMaterials read_bsdf(const Document& document, const Object& object, Notes& notes);
+
+/// One of the emitters that are no surfaces.
+Emitter read_emitter(const Document& document, const Object& object, Notes& notes);
+
+/// The radiance of an `area` emitter inside a shape.
+Rgb read_area_emitter(const Document& document, const Object& object, Notes& notes);
+
+/// The geometry of a shape; its bsdf and emitter are left to the caller.
+struct ShapeParts {
+    Geometry geometry;
+    const Object* bsdf = nullptr;
+    const Object* emitter = nullptr;
+};
+ShapeParts read_shape(const Document& document, const Object& object, Notes& notes);
+
+struct SensorParts {
+    Camera camera;
+    Film film;
+    Sampler sampler;
+};
+SensorParts read_sensor(const Document& document, const Object& object, Notes& notes);
+Film read_film(const Document& document, const Object& object, Notes& notes);
+ReconstructionFilter read_filter(const Document& document, const Object& object, Notes& notes);
+Sampler read_sampler(const Document& document, const Object& object, Notes& notes);
+
+Integrator read_integrator(const Document& document, const Object& object, Notes& notes);
+
+} // namespace parhelion::mitsuba

@@ -1,0 +1,202 @@
+// Typed access to the parameters of one plugin, refusing whatever its reader did not ask for.
+#include "host/scene/mitsuba/properties.h"
+
+#include "host/scene/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace parhelion::mitsuba {
+
+namespace {
+
+bool contains(const std::vector<std::string>& list, std::string_view item) {
+    return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+std::string joined(const std::vector<std::string>& list) {
+    std::string result;
+    for (const std::string& item : list)
+        result += (result.empty() ? "" : ", ") + item;
+    return result.empty() ? "none" : result;
+}
+
+} // namespace
+
+Properties::Properties(const Document& document, const Object& object,
+                       std::vector<std::string>& notes)
+    : document_(document), object_(object), notes_(notes) {}
+
+std::string Properties::title() const {
+    return object_.tag == "scene" ? std::string("<scene>")
+                                  : object_.tag + " plugin " + in_quotes(object_.plugin);
+}
+
+const Parameter* Properties::find(std::string_view name) const {
+    for (const Parameter& parameter : object_.parameters)
+        if (parameter.name == name) return &parameter;
+    return nullptr;
+}
+
+bool Properties::has(std::string_view name) const { return find(name) != nullptr; }
+
+const SourceLocation& Properties::location_of(std::string_view name) const {
+    const Parameter* const parameter = find(name);
+    return parameter ? parameter->location : object_.location;
+}
+
+const Parameter* Properties::take(std::string_view name) {
+    if (!contains(asked_, name)) asked_.emplace_back(name);
+    for (const Child& child : object_.children)
+        if (child.name == name)
+            refuse(child.location,
+                   fmt::format("{}: parameter {} is given as <{} type={}>, which is not supported",
+                               title(), in_quotes(name), target(child).tag,
+                               in_quotes(target(child).plugin)));
+    return find(name);
+}
+
+void Properties::refuse_value(std::string_view name, const std::string& found,
+                              const std::string& accepted) const {
+    refuse(location_of(name), fmt::format("{}: parameter {} is {} (accepted: {})", title(),
+                                          in_quotes(name), found, accepted));
+}
+
+template<typename T>
+const T* Properties::take_as(std::string_view name, const char* accepted) {
+    const Parameter* const parameter = take(name);
+    if (!parameter) return nullptr;
+    const T* const value = std::get_if<T>(&parameter->value);
+    if (!value) refuse_value(name, "given as <" + parameter->tag + ">", accepted);
+    return value;
+}
+
+double Properties::number(std::string_view name, double missing, const NumberRule& rule) {
+    const Parameter* const parameter = take(name);
+    if (!parameter) return missing;
+    double value = 0.0;
+    if (const auto* real = std::get_if<double>(&parameter->value))
+        value = *real;
+    else if (const auto* whole = std::get_if<std::int64_t>(&parameter->value))
+        value = static_cast<double>(*whole);
+    else
+        refuse_value(name, "given as <" + parameter->tag + ">", "<float>");
+    if (!rule.accepts(value)) refuse_value(name, fmt::format("{}", value), rule.text);
+    return value;
+}
+
+double Properties::required_number(std::string_view name, const NumberRule& rule) {
+    if (!has(name))
+        refuse(location(), fmt::format("{} lacks its parameter {} (accepted: <float>, {})", title(),
+                                       in_quotes(name), rule.text));
+    return number(name, 0.0, rule);
+}
+
+std::int64_t Properties::integer(std::string_view name, std::int64_t missing, std::int64_t lowest,
+                                 std::int64_t highest) {
+    const auto* const value = take_as<std::int64_t>(name, "<integer>");
+    if (!value) return missing;
+    if (*value < lowest || *value > highest)
+        refuse_value(name, std::to_string(*value), fmt::format("{} to {}", lowest, highest));
+    return *value;
+}
+
+bool Properties::boolean(std::string_view name, bool missing) {
+    const bool* const value = take_as<bool>(name, "<boolean>");
+    return value ? *value : missing;
+}
+
+std::string Properties::text(std::string_view name, std::string_view missing) {
+    const auto* const value = take_as<std::string>(name, "<string>");
+    return value ? *value : std::string(missing);
+}
+
+std::string Properties::required_text(std::string_view name) {
+    if (!has(name))
+        refuse(location(),
+               fmt::format("{} lacks its parameter {} (<string>)", title(), in_quotes(name)));
+    return text(name, "");
+}
+
+std::size_t Properties::choice(std::string_view name, std::string_view missing,
+                               std::initializer_list<std::string_view> accepted) {
+    const std::string value = text(name, missing);
+    const auto found = std::find(accepted.begin(), accepted.end(), lower_case(value));
+    if (found == accepted.end()) {
+        std::string list;
+        for (const std::string_view item : accepted)
+            list += (list.empty() ? "" : ", ") + std::string(item);
+        refuse_value(name, in_quotes(value), list);
+    }
+    return static_cast<std::size_t>(found - accepted.begin());
+}
+
+glm::dvec3 Properties::vector(std::string_view name, const glm::dvec3& missing) {
+    const auto* const value = take_as<glm::dvec3>(name, "<point>, <vector>");
+    return value ? *value : missing;
+}
+
+glm::dmat4 Properties::transform(std::string_view name) {
+    const auto* const value = take_as<glm::dmat4>(name, "<transform>");
+    return value ? *value : glm::dmat4(1.0);
+}
+
+Rgb Properties::color(std::string_view name, const Rgb& missing, SpectrumUse use) {
+    const Parameter* const parameter = take(name);
+    if (!parameter) return missing;
+    const double top =
+        use == SpectrumUse::reflectance ? 1.0 : std::numeric_limits<double>::infinity();
+    const auto check = [&](double v) {
+        if (v < 0.0 || v > top)
+            refuse_value(name, fmt::format("{}", v), top == 1.0 ? "0 to 1" : "0 or greater");
+    };
+    if (const auto* rgb = std::get_if<RgbValue>(&parameter->value)) {
+        for (int i = 0; i < 3; ++i)
+            check(rgb->color[i]);
+        return rgb->color;
+    }
+    if (const auto* spectrum = std::get_if<SpectrumValue>(&parameter->value)) {
+        for (const double v : spectrum->values)
+            check(v);
+        const ConvertedSpectrum converted = to_rgb(*spectrum, use);
+        if (converted.clamped)
+            note(name, fmt::format("{} lies outside the sRGB gamut and was moved to its border",
+                                   in_quotes(name)));
+        return converted.color;
+    }
+    if (!std::holds_alternative<double>(parameter->value) &&
+        !std::holds_alternative<std::int64_t>(parameter->value))
+        refuse_value(name, "given as <" + parameter->tag + ">", "<rgb>, <spectrum>, <float>");
+    const double value = number(name, 0.0);
+    check(value);
+    return Rgb(value);
+}
+
+std::vector<const Child*> Properties::children(std::string_view tag) {
+    asked_tags_.emplace_back(tag);
+    std::vector<const Child*> result;
+    for (const Child& child : object_.children)
+        if (target(child).tag == tag) result.push_back(&child);
+    return result;
+}
+
+void Properties::note(std::string_view about, const std::string& message) {
+    notes_.push_back(location_of(about).to_string() + ": " + message);
+}
+
+void Properties::finish() const {
+    for (const Parameter& parameter : object_.parameters)
+        if (!contains(asked_, parameter.name))
+            refuse(parameter.location, fmt::format("{} has no parameter {} (accepted: {})", title(),
+                                                   in_quotes(parameter.name), joined(asked_)));
+    for (const Child& child : object_.children)
+        if (!contains(asked_tags_, target(child).tag))
+            refuse(child.location,
+                   fmt::format("{} cannot hold the {} plugin {} (accepted: {})", title(),
+                               target(child).tag, in_quotes(target(child).plugin),
+                               joined(asked_tags_)));
+}
+
+} // namespace parhelion::mitsuba

@@ -1,0 +1,78 @@
+// Typed access to the parameters of one plugin, refusing whatever its reader did not ask for.
+#pragma once
+
+#include "host/scene/mitsuba/document.h"
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace parhelion::mitsuba {
+
+/// What a number may be, and how a message says it.
+struct NumberRule {
+    bool (*accepts)(double);
+    const char* text;
+};
+
+inline constexpr NumberRule any_number{[](double) { return true; }, "a number"};
+inline constexpr NumberRule positive{[](double v) { return v > 0.0; }, "greater than 0"};
+inline constexpr NumberRule non_negative{[](double v) { return v >= 0.0; }, "0 or greater"};
+
+/// Every query takes its parameter; `finish` refuses those that are left. All throw InputError with
+/// the parameter's own line.
+class Properties {
+public:
+    Properties(const Document& document, const Object& object, std::vector<std::string>& notes);
+
+    const Object& object() const { return object_; }
+    const SourceLocation& location() const { return object_.location; }
+
+    bool has(std::string_view name) const;
+    /// The line of a parameter that is there, else of the plugin.
+    const SourceLocation& location_of(std::string_view name) const;
+
+    double number(std::string_view name, double missing, const NumberRule& rule = any_number);
+    double required_number(std::string_view name, const NumberRule& rule);
+    std::int64_t integer(std::string_view name, std::int64_t missing, std::int64_t lowest,
+                         std::int64_t highest);
+    bool boolean(std::string_view name, bool missing);
+    std::string text(std::string_view name, std::string_view missing);
+    std::string required_text(std::string_view name);
+    /// The position of the (case-insensitive) value in `accepted`.
+    std::size_t choice(std::string_view name, std::string_view missing,
+                       std::initializer_list<std::string_view> accepted);
+    glm::dvec3 vector(std::string_view name, const glm::dvec3& missing);
+    glm::dmat4 transform(std::string_view name);
+    Rgb color(std::string_view name, const Rgb& missing, SpectrumUse use);
+
+    /// Takes the plugins of kind `tag` inside this one, in their order.
+    std::vector<const Child*> children(std::string_view tag);
+    const Object& target(const Child& child) const { return document_.objects[child.object]; }
+
+    /// One line for the user, with this plugin's (or the parameter's) place.
+    void note(std::string_view about, const std::string& message);
+
+    [[noreturn]] void refuse_value(std::string_view name, const std::string& found,
+                                   const std::string& accepted) const;
+    /// "bsdf plugin "diffuse""
+    std::string title() const;
+
+    void finish() const;
+
+private:
+    const Parameter* take(std::string_view name);
+    const Parameter* find(std::string_view name) const;
+    template<typename T>
+    const T* take_as(std::string_view name, const char* accepted);
+
+    const Document& document_;
+    const Object& object_;
+    std::vector<std::string>& notes_;
+    std::vector<std::string> asked_;      ///< parameter names, for the message of `finish`
+    std::vector<std::string> asked_tags_; ///< kinds of children
+};
+
+} // namespace parhelion::mitsuba

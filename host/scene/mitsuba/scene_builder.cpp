@@ -1,0 +1,154 @@
+// From a Mitsuba document to a Scene.
+#include "host/scene/mitsuba/scene_builder.h"
+
+#include "host/scene/mitsuba/plugins.h"
+#include "host/scene/mitsuba/properties.h"
+#include "host/scene/text.h"
+
+#include <map>
+#include <optional>
+
+namespace parhelion::mitsuba {
+
+namespace {
+
+class SceneBuilder {
+public:
+    explicit SceneBuilder(Document document) : document_(std::move(document)) {
+        scene_.notes = std::move(document_.notes);
+    }
+
+    Scene build(const std::string& file);
+
+private:
+    struct MaterialPair {
+        int front = no_material, back = no_material;
+    };
+
+    void add(const Child& child);
+    void add_shape(const Object& object);
+    void add_emitter(const Object& object);
+    void set_sensor(const Child& child);
+    void set_integrator(const Child& child);
+    int add_material(Material material);
+    MaterialPair materials_of(const Object& object);
+    MaterialPair default_material(bool emits);
+
+    Document document_;
+    Scene scene_;
+    std::map<const Object*, MaterialPair> materials_; ///< by the bsdf that asked for them
+    std::map<bool, MaterialPair> default_materials_;
+    std::optional<SourceLocation> sensor_, integrator_, background_;
+};
+
+int SceneBuilder::add_material(Material material) {
+    const int index = static_cast<int>(scene_.materials.size());
+    if (material.id.empty()) material.id = "bsdf " + std::to_string(index + 1);
+    scene_.materials.push_back(std::move(material));
+    return index;
+}
+
+SceneBuilder::MaterialPair SceneBuilder::materials_of(const Object& object) {
+    if (const auto known = materials_.find(&object); known != materials_.end())
+        return known->second;
+    SurfaceMaterials materials = read_bsdf(document_, object, scene_.notes);
+    MaterialPair pair;
+    pair.front = add_material(std::move(materials.front));
+    if (materials.back_kind == SurfaceMaterials::Back::same) pair.back = pair.front;
+    if (materials.back_kind == SurfaceMaterials::Back::other)
+        pair.back = add_material(std::move(materials.back));
+    return materials_[&object] = pair;
+}
+
+/// What Mitsuba gives a shape without a bsdf: grey, or black where it emits.
+SceneBuilder::MaterialPair SceneBuilder::default_material(bool emits) {
+    const auto [entry, added] = default_materials_.try_emplace(emits);
+    if (added)
+        entry->second.front = add_material({emits ? "default of emitters" : "default",
+                                            {scene_.file, 0},
+                                            DiffuseBsdf{Rgb(emits ? 0.0 : 0.5)}});
+    return entry->second;
+}
+
+void SceneBuilder::add_shape(const Object& object) {
+    ShapeParts parts = read_shape(document_, object, scene_.notes);
+    Shape shape{object.id, object.plugin, object.location, std::move(parts.geometry), {}, {}, {}};
+    if (shape.id.empty()) shape.id = "shape " + std::to_string(scene_.shapes.size() + 1);
+    if (parts.emitter) shape.radiance = read_area_emitter(document_, *parts.emitter, scene_.notes);
+    const MaterialPair pair =
+        parts.bsdf ? materials_of(*parts.bsdf) : default_material(parts.emitter != nullptr);
+    shape.material_front = pair.front;
+    shape.material_back = pair.back;
+    scene_.shapes.push_back(std::move(shape));
+}
+
+void SceneBuilder::add_emitter(const Object& object) {
+    const Emitter emitter = read_emitter(document_, object, scene_.notes);
+    if (std::holds_alternative<ConstantEmitter>(emitter)) {
+        if (background_)
+            refuse(object.location, "a second emitter around the whole scene (the first: " +
+                                        background_->to_string() + "; accepted: one)");
+        background_ = object.location;
+    }
+    scene_.emitters.push_back(emitter);
+}
+
+void refuse_second(std::optional<SourceLocation>& first, const Child& child, const char* tag) {
+    if (first)
+        refuse(child.location, std::string("a second <") + tag +
+                                   "> (the first: " + first->to_string() + "; accepted: one)");
+    first = child.location;
+}
+
+void SceneBuilder::set_sensor(const Child& child) {
+    refuse_second(sensor_, child, "sensor");
+    SensorParts parts = read_sensor(document_, document_.objects[child.object], scene_.notes);
+    scene_.camera = parts.camera;
+    scene_.film = parts.film;
+    scene_.sampler = std::move(parts.sampler);
+}
+
+void SceneBuilder::set_integrator(const Child& child) {
+    refuse_second(integrator_, child, "integrator");
+    scene_.integrator = read_integrator(document_, document_.objects[child.object], scene_.notes);
+}
+
+void SceneBuilder::add(const Child& child) {
+    const Object& object = document_.objects[child.object];
+    if (object.tag == "shape")
+        add_shape(object);
+    else if (object.tag == "emitter")
+        add_emitter(object);
+    else if (object.tag == "sensor")
+        set_sensor(child);
+    else if (object.tag == "integrator")
+        set_integrator(child);
+    else if (object.tag == "bsdf")
+        // Read even if no shape uses it, so that its mistakes are found.
+        static_cast<void>(read_bsdf(document_, object, scene_.notes));
+    else
+        refuse(child.location, "<scene> cannot hold the " + object.tag + " plugin " +
+                                   in_quotes(object.plugin) +
+                                   " (accepted: bsdf, emitter, integrator, sensor, shape)");
+}
+
+Scene SceneBuilder::build(const std::string& file) {
+    scene_.file = file;
+    const Object& root = document_.objects.front();
+    for (const Child& child : root.children)
+        add(child);
+    for (const Parameter& parameter : root.parameters)
+        refuse(parameter.location, "<scene> has no parameter " + in_quotes(parameter.name));
+    if (!sensor_) refuse({file, 0}, "the scene has no <sensor>");
+    if (!integrator_)
+        scene_.notes.push_back(file + ": the scene has no <integrator>; \"path\" is used");
+    return std::move(scene_);
+}
+
+} // namespace
+
+Scene load_xml_scene(const std::string& file, const LoadOptions& options) {
+    return SceneBuilder(read_document(file, options)).build(file);
+}
+
+} // namespace parhelion::mitsuba

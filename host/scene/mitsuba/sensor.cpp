@@ -1,0 +1,153 @@
+// The sensor plugins and the sampler.
+#include "host/scene/mitsuba/plugin_table.h"
+#include "host/scene/mitsuba/plugins.h"
+#include "host/scene/mitsuba/properties.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <cmath>
+
+namespace parhelion::mitsuba {
+
+namespace {
+
+constexpr NumberRule field_of_view{[](double v) { return v > 0.0 && v < 180.0; },
+                                   "degrees greater than 0 and less than 180"};
+
+glm::dmat4 read_camera_to_world(Properties& p) {
+    constexpr double tolerance = 1e-3; // as in Mitsuba
+    const glm::dmat4 to_world = p.transform("to_world");
+    const glm::dmat3 m(to_world);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j <= i; ++j)
+            if (!(std::abs(glm::dot(m[i], m[j]) - (i == j ? 1.0 : 0.0)) < tolerance))
+                p.refuse_value("to_world", "a transform with scale or shear",
+                               "rotation, translation, mirror");
+    return to_world;
+}
+
+/// "50" or "50mm".
+double read_focal_length(Properties& p) {
+    std::string text = p.text("focal_length", "50mm");
+    const std::string written = text;
+    if (text.ends_with("mm")) text.resize(text.size() - 2);
+    const std::optional<double> length = parse_number(text);
+    if (!length || !(*length > 0.0))
+        p.refuse_value("focal_length", in_quotes(written), "millimetres such as \"50mm\"");
+    return *length;
+}
+
+void read_field_of_view(Properties& p, Camera& camera) {
+    if (!p.has("fov")) {
+        camera.focal_length_mm = read_focal_length(p);
+        return;
+    }
+    if (p.has("focal_length"))
+        p.refuse_value("focal_length", "given together with \"fov\"", "one or the other");
+    camera.fov_degrees = p.number("fov", 0.0, field_of_view);
+    constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::diagonal, FovAxis::smaller,
+                                FovAxis::larger};
+    camera.fov_axis = axes[p.choice("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"})];
+}
+
+Camera read_projective(Properties& p) {
+    Camera camera;
+    camera.to_world = read_camera_to_world(p);
+    read_field_of_view(p, camera);
+    camera.near_clip = p.number("near_clip", 1e-2, positive);
+    camera.far_clip = p.number("far_clip", 1e4, positive);
+    if (!(camera.near_clip < camera.far_clip))
+        p.refuse_value("near_clip", "not below \"far_clip\"", "less than far_clip");
+    // Mitsuba keeps it for both cameras; a pinhole has no use for it.
+    camera.focus_distance = p.number("focus_distance", camera.far_clip, non_negative);
+    // Nothing moves, so the shutter does not change the picture.
+    const double open = p.number("shutter_open", 0.0);
+    if (p.number("shutter_close", 0.0) < open)
+        p.refuse_value("shutter_close", "before \"shutter_open\"", "not before it");
+    return camera;
+}
+
+Camera read_perspective(Properties& p) {
+    Camera camera = read_projective(p);
+    camera.principal_point_offset = {p.number("principal_point_offset_x", 0.0),
+                                     p.number("principal_point_offset_y", 0.0)};
+    return camera;
+}
+
+Camera read_thin_lens(Properties& p) {
+    Camera camera = read_projective(p);
+    camera.aperture_radius = p.required_number("aperture_radius", non_negative);
+    if (!(camera.focus_distance > 0.0)) p.refuse_value("focus_distance", "0", positive.text);
+    return camera;
+}
+
+using SensorReader = Camera (*)(Properties&);
+
+constexpr PluginTable<SensorReader, 2> sensor_plugins = {
+    {{"perspective", read_perspective}, {"thinlens", read_thin_lens}}};
+
+/// What the samplers of Mitsuba have besides sample_count and seed.
+void read_nothing(Properties&) {}
+
+void read_jitter(Properties& p) {
+    if (!p.boolean("jitter", true)) p.note("jitter", "\"jitter\" is taken as true");
+}
+
+void read_orthogonal(Properties& p) {
+    read_jitter(p);
+    p.integer("strength", 2, 0, 64);
+}
+
+using SamplerReader = void (*)(Properties&);
+
+constexpr PluginTable<SamplerReader, 5> sampler_plugins = {{{"independent", read_nothing},
+                                                            {"stratified", read_jitter},
+                                                            {"multijitter", read_jitter},
+                                                            {"orthogonal", read_orthogonal},
+                                                            {"ldsampler", read_nothing}}};
+
+const Object* only_child(Properties& p, const char* tag) {
+    const std::vector<const Child*> children = p.children(tag);
+    if (children.size() > 1)
+        refuse(children[1]->location, p.title() + " has more than one <" + tag + ">");
+    return children.empty() ? nullptr : &p.target(*children[0]);
+}
+
+constexpr int default_samples = 4; ///< Mitsuba's
+
+} // namespace
+
+Sampler read_sampler(const Document& document, const Object& object, Notes& notes) {
+    Properties p(document, object, notes);
+    const SamplerReader read = find_plugin(sampler_plugins, object);
+    read(p);
+    Sampler sampler;
+    sampler.plugin = object.plugin;
+    sampler.samples_per_pixel = static_cast<int>(
+        p.integer("sample_count", default_samples, 1, std::numeric_limits<std::int32_t>::max()));
+    sampler.seed = static_cast<std::uint32_t>(
+        p.integer("seed", 0, 0, std::numeric_limits<std::uint32_t>::max()));
+    if (object.plugin != "independent")
+        p.note("", "sampler " + in_quotes(object.plugin) +
+                       " is replaced by the one sampler there is; only the noise differs");
+    p.finish();
+    return sampler;
+}
+
+SensorParts read_sensor(const Document& document, const Object& object, Notes& notes) {
+    Properties p(document, object, notes);
+    const SensorReader read = find_plugin(sensor_plugins, object);
+    SensorParts parts;
+    parts.camera = read(p);
+    const Object* const film = only_child(p, "film");
+    const Object* const sampler = only_child(p, "sampler");
+    p.finish();
+    parts.film.pixel_format = PixelFormat::rgb;
+    parts.sampler.samples_per_pixel = default_samples;
+    if (film) parts.film = read_film(document, *film, notes);
+    if (sampler) parts.sampler = read_sampler(document, *sampler, notes);
+    return parts;
+}
+
+} // namespace parhelion::mitsuba

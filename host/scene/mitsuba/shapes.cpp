@@ -1,0 +1,177 @@
+// The shape plugins.
+#include "host/scene/mesh_data.h"
+#include "host/scene/mesh_obj.h"
+#include "host/scene/mesh_ply.h"
+#include "host/scene/mesh_serialized.h"
+#include "host/scene/mitsuba/plugin_table.h"
+#include "host/scene/mitsuba/plugins.h"
+#include "host/scene/mitsuba/properties.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+
+namespace parhelion::mitsuba {
+
+namespace {
+
+constexpr std::int64_t max_index = std::numeric_limits<std::int32_t>::max();
+
+struct ShapeInput {
+    Properties& p;
+    const Document& document;
+    Notes& notes;
+};
+
+/// to_world, which must not flatten the shape.
+glm::dmat4 read_to_world(Properties& p) {
+    const glm::dmat4 to_world = p.transform("to_world");
+    const double determinant = glm::determinant(glm::dmat3(to_world));
+    if (determinant == 0.0 || !std::isfinite(determinant))
+        p.refuse_value("to_world", "a transform without inverse", "one that keeps volumes above 0");
+    return to_world;
+}
+
+bool is_mirror(const glm::dmat4& to_world) { return glm::determinant(glm::dmat3(to_world)) < 0.0; }
+
+MeshOptions read_mesh_options(Properties& p) {
+    return {read_to_world(p), p.boolean("face_normals", false), p.boolean("flip_normals", false)};
+}
+
+Geometry read_mesh(const ShapeInput& in, MeshData data, const MeshOptions& options) {
+    return make_mesh(std::move(data), options, in.p.location(), in.notes);
+}
+
+std::filesystem::path read_filename(const ShapeInput& in) {
+    const std::string name = in.p.required_text("filename");
+    return in.document.files.file(name, in.p.location_of("filename"));
+}
+
+Geometry read_obj(const ShapeInput& in) {
+    const bool flip_v = in.p.boolean("flip_tex_coords", true);
+    const MeshOptions options = read_mesh_options(in.p);
+    return read_mesh(in, load_obj(read_filename(in), flip_v, in.p.location_of("filename")),
+                     options);
+}
+
+Geometry read_ply(const ShapeInput& in) {
+    const bool flip_v = in.p.boolean("flip_tex_coords", false);
+    const MeshOptions options = read_mesh_options(in.p);
+    return read_mesh(in, load_ply(read_filename(in), flip_v, in.p.location_of("filename")),
+                     options);
+}
+
+Geometry read_serialized(const ShapeInput& in) {
+    const std::int64_t index = in.p.integer("shape_index", 0, 0, max_index);
+    MeshOptions options = read_mesh_options(in.p);
+    SerializedMesh file = load_serialized(read_filename(in), index, in.p.location_of("filename"));
+    options.face_normals |= file.face_normals;
+    return read_mesh(in, std::move(file.mesh), options);
+}
+
+/// A built-in flat-sided mesh. Its normals transform as normals do, so a mirror does not turn it
+/// inside out.
+Geometry read_flat_mesh(const ShapeInput& in, MeshData data) {
+    MeshOptions options = read_mesh_options(in.p);
+    options.face_normals = true; // the same as its own vertex normals
+    options.flip_normals = options.flip_normals != is_mirror(options.to_world);
+    return read_mesh(in, std::move(data), options);
+}
+
+/// [-1, 1]^2 in the plane z = 0, facing +z.
+Geometry read_rectangle(const ShapeInput& in) {
+    MeshData data;
+    data.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    data.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    data.triangles = {{0, 1, 2}, {2, 3, 0}};
+    return read_flat_mesh(in, std::move(data));
+}
+
+/// [-1, 1]^3, facing outwards; every face has the whole texture.
+Geometry read_cube(const ShapeInput& in) {
+    MeshData data;
+    data.positions = {{1, -1, -1}, {1, -1, 1},  {-1, -1, 1},  {-1, -1, -1}, {1, 1, -1},
+                      {-1, 1, -1}, {-1, 1, 1},  {1, 1, 1},    {1, -1, -1},  {1, 1, -1},
+                      {1, 1, 1},   {1, -1, 1},  {1, -1, 1},   {1, 1, 1},    {-1, 1, 1},
+                      {-1, -1, 1}, {-1, -1, 1}, {-1, 1, 1},   {-1, 1, -1},  {-1, -1, -1},
+                      {1, 1, -1},  {1, -1, -1}, {-1, -1, -1}, {-1, 1, -1}};
+    for (unsigned first = 0; first < 24; first += 4) {
+        data.uvs.insert(data.uvs.end(), {{0, 1}, {1, 1}, {1, 0}, {0, 0}});
+        data.triangles.emplace_back(first, first + 1, first + 2);
+        data.triangles.emplace_back(first + 3, first, first + 2);
+    }
+    return read_flat_mesh(in, std::move(data));
+}
+
+/// The scale of a transform that keeps spheres round; refuses others.
+double uniform_scale(Properties& p, const glm::dmat3& m) {
+    // Wider than the rounding of rotations written with six digits, narrower than is seen.
+    constexpr double tolerance = 1e-4;
+    const double scale = std::cbrt(std::abs(glm::determinant(m)));
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j <= i; ++j)
+            if (!(std::abs(glm::dot(m[i] / scale, m[j] / scale) - (i == j ? 1.0 : 0.0)) <
+                  tolerance))
+                p.refuse_value("to_world", "a transform that makes the sphere an ellipsoid",
+                               "rotation, translation, uniform scale, mirror");
+    return scale;
+}
+
+Geometry read_sphere(const ShapeInput& in) {
+    const glm::dmat4 to_world = read_to_world(in.p);
+    const double scale = uniform_scale(in.p, glm::dmat3(to_world));
+    Sphere sphere;
+    sphere.center = glm::dvec3(to_world * glm::dvec4(in.p.vector("center", glm::dvec3(0.0)), 1.0));
+    sphere.radius = scale * in.p.number("radius", 1.0, positive);
+    if (!(sphere.radius > 0.0) || !std::isfinite(sphere.radius) ||
+        !std::isfinite(glm::dot(sphere.center, glm::dvec3(1.0))))
+        refuse(in.p.location(), in.p.title() + ": to_world takes it out of the range of numbers");
+    sphere.axis_x = glm::normalize(glm::dvec3(to_world[0]));
+    sphere.axis_y = glm::normalize(glm::dvec3(to_world[1]));
+    sphere.axis_z = glm::normalize(glm::dvec3(to_world[2]));
+    // A mirror turns Mitsuba's sphere inside out.
+    sphere.flip_normals = in.p.boolean("flip_normals", false) != is_mirror(to_world);
+    return sphere;
+}
+
+Geometry read_disk(const ShapeInput& in) {
+    const glm::dmat4 to_world = read_to_world(in.p);
+    Disk disk{glm::dvec3(to_world[3]), glm::dvec3(to_world[0]), glm::dvec3(to_world[1]), false};
+    // The normal transforms as normals do: along the cross product, or against it in a mirror.
+    disk.flip_normals = in.p.boolean("flip_normals", false) != is_mirror(to_world);
+    return disk;
+}
+
+using ShapeReader = Geometry (*)(const ShapeInput&);
+
+constexpr PluginTable<ShapeReader, 7> shape_plugins = {{{"obj", read_obj},
+                                                        {"ply", read_ply},
+                                                        {"serialized", read_serialized},
+                                                        {"rectangle", read_rectangle},
+                                                        {"cube", read_cube},
+                                                        {"sphere", read_sphere},
+                                                        {"disk", read_disk}}};
+
+const Object* only_child(Properties& p, const char* tag) {
+    const std::vector<const Child*> children = p.children(tag);
+    if (children.size() > 1)
+        refuse(children[1]->location, p.title() + " has more than one <" + tag + ">");
+    return children.empty() ? nullptr : &p.target(*children[0]);
+}
+
+} // namespace
+
+ShapeParts read_shape(const Document& document, const Object& object, Notes& notes) {
+    Properties p(document, object, notes);
+    const ShapeReader read = find_plugin(shape_plugins, object);
+    ShapeParts parts;
+    parts.bsdf = only_child(p, "bsdf");
+    parts.emitter = only_child(p, "emitter");
+    parts.geometry = read({p, document, notes});
+    p.finish();
+    return parts;
+}
+
+} // namespace parhelion::mitsuba

@@ -1,0 +1,189 @@
+// The elements that hold a value: <float>, <rgb>, <transform> and their kin.
+#include "host/scene/mitsuba/xml_values.h"
+
+#include "host/scene/mitsuba/transforms.h"
+#include "host/scene/text.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace parhelion::mitsuba {
+
+namespace {
+
+constexpr std::size_t max_spectrum_bytes = std::size_t(1) << 24;
+
+struct Element {
+    const XmlFile& xml;
+    pugi::xml_node node;
+    const FileFinder& files;
+    std::vector<std::string>& notes;
+
+    SourceLocation place() const { return xml.location(node); }
+    std::string_view attribute(const char* name) const { return node.attribute(name).value(); }
+    std::string title() const { return std::string("<") + node.name() + ">"; }
+};
+
+double number_attribute(const Element& e, const char* name) {
+    const std::optional<double> value = parse_number(e.attribute(name));
+    if (!value)
+        refuse(e.place(),
+               e.title() + ": " + in_quotes(e.attribute(name)) + " is not a finite number");
+    return *value;
+}
+
+/// `value="a"`, `value="a b c"`, or x, y and z, of which some may be `missing`.
+glm::dvec3 vector_attributes(const Element& e, double missing) {
+    const std::array<const char*, 3> axes = {"x", "y", "z"};
+    if (!e.node.attribute("value")) {
+        glm::dvec3 result(missing);
+        for (int i = 0; i < 3; ++i)
+            if (e.node.attribute(axes[i])) result[i] = number_attribute(e, axes[i]);
+        return result;
+    }
+    for (const char* const axis : axes)
+        if (e.node.attribute(axis))
+            refuse(e.place(), e.title() + " takes either value or x, y and z, not both");
+    const std::string_view text = e.attribute("value");
+    if (split(text, ", \t\r\n").size() == 1) return glm::dvec3(number_attribute(e, "value"));
+    return parse_vector(text, e.title().c_str(), e.place());
+}
+
+Value read_float(const Element& e) {
+    check_attributes(e.xml, e.node, {"!name", "!value"});
+    return number_attribute(e, "value");
+}
+
+Value read_integer(const Element& e) {
+    check_attributes(e.xml, e.node, {"!name", "!value"});
+    const std::optional<std::int64_t> value = parse_integer(e.attribute("value"));
+    if (!value)
+        refuse(e.place(), "<integer>: " + in_quotes(e.attribute("value")) + " is not an integer");
+    return *value;
+}
+
+Value read_boolean(const Element& e) {
+    check_attributes(e.xml, e.node, {"!name", "!value"});
+    const std::string text = lower_case(e.attribute("value"));
+    if (text != "true" && text != "false")
+        refuse(e.place(), "<boolean>: " + in_quotes(e.attribute("value")) +
+                              " is not a boolean (accepted: true, false)");
+    return text == "true";
+}
+
+Value read_string(const Element& e) {
+    check_attributes(e.xml, e.node, {"!name", "!value"});
+    return std::string(e.attribute("value"));
+}
+
+Value read_vector(const Element& e) {
+    if (e.node.attribute("value"))
+        check_attributes(e.xml, e.node, {"!name", "!value", "x", "y", "z"});
+    else
+        check_attributes(e.xml, e.node, {"!name", "!x", "!y", "!z"});
+    return vector_attributes(e, 0.0);
+}
+
+Value read_rgb(const Element& e) {
+    check_attributes(e.xml, e.node, {"!name", "!value"});
+    return parse_rgb(e.attribute("value"), e.place());
+}
+
+Value read_spectrum(const Element& e) {
+    check_attributes(e.xml, e.node, {"!name", "value", "filename"});
+    const bool has_file = !e.attribute("filename").empty();
+    if (has_file == !e.attribute("value").empty())
+        refuse(e.place(), "<spectrum> takes either value or filename");
+    if (!has_file) return parse_spectrum(e.attribute("value"), e.place());
+    const std::filesystem::path path =
+        e.files.file(std::string(e.attribute("filename")), e.place());
+    if (lower_case(path.extension().string()) != ".spd")
+        refuse(e.place(), "<spectrum>: " + in_quotes(path.string()) + " is not an .spd file");
+    return parse_spectrum_file(read_whole_file(path, e.place(), max_spectrum_bytes),
+                               {path.string(), 0});
+}
+
+glm::dmat4 read_rotate(const Element& e) {
+    check_attributes(e.xml, e.node, {"!angle", "value", "x", "y", "z"});
+    const glm::dvec3 axis = vector_attributes(e, 0.0);
+    const double length = glm::length(axis);
+    if (!(length > 0.0) || !std::isfinite(length))
+        refuse(e.place(), "<rotate>: the axis (x, y, z) cannot be zero");
+    if (std::abs(length - 1.0) > 1e-5)
+        e.notes.push_back(e.place().to_string() +
+                          ": <rotate>: the axis is not a unit vector; it is used as a direction "
+                          "(Mitsuba 3 gives a matrix that is no rotation)");
+    return rotation(axis, number_attribute(e, "angle"));
+}
+
+glm::dmat4 read_look_at(const Element& e) {
+    check_attributes(e.xml, e.node, {"!origin", "!target", "up"});
+    const glm::dvec3 origin = parse_vector(e.attribute("origin"), "<lookat> origin", e.place());
+    const glm::dvec3 target = parse_vector(e.attribute("target"), "<lookat> target", e.place());
+    const glm::dvec3 up = e.attribute("up").empty()
+                              ? glm::dvec3(0.0)
+                              : parse_vector(e.attribute("up"), "<lookat> up", e.place());
+    return look_at(origin, target, up, e.place());
+}
+
+glm::dmat4 read_step(const Element& e) {
+    const std::string_view tag = e.node.name();
+    refuse_content(e.xml, e.node);
+    if (tag == "rotate") return read_rotate(e);
+    if (tag == "lookat" || tag == "lookAt") return read_look_at(e);
+    if (tag == "matrix") {
+        check_attributes(e.xml, e.node, {"!value"});
+        return parse_matrix(e.attribute("value"), e.place());
+    }
+    if (tag != "translate" && tag != "scale")
+        refuse(e.place(), "<" + std::string(tag) +
+                              "> cannot stand inside <transform> (accepted: translate, rotate, "
+                              "scale, matrix, lookat)");
+    check_attributes(e.xml, e.node, {"value", "x", "y", "z"});
+    if (tag == "translate") return glm::translate(glm::dmat4(1.0), vector_attributes(e, 0.0));
+    return glm::scale(glm::dmat4(1.0), vector_attributes(e, 1.0));
+}
+
+/// The steps act in the order they are written.
+Value read_transform(const Element& e) {
+    check_attributes(e.xml, e.node, {"!name"});
+    glm::dmat4 result(1.0);
+    for (const pugi::xml_node child : e.node.children())
+        if (child.type() == pugi::node_element)
+            result = read_step({e.xml, child, e.files, e.notes}) * result;
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(result[column][row]))
+                refuse(e.place(), "<transform>: the product of its steps is not finite");
+    return result;
+}
+
+struct ValueReader {
+    std::string_view tag;
+    Value (*read)(const Element&);
+};
+
+constexpr std::array<ValueReader, 9> value_readers = {{{"float", read_float},
+                                                       {"integer", read_integer},
+                                                       {"boolean", read_boolean},
+                                                       {"string", read_string},
+                                                       {"vector", read_vector},
+                                                       {"point", read_vector},
+                                                       {"rgb", read_rgb},
+                                                       {"spectrum", read_spectrum},
+                                                       {"transform", read_transform}}};
+
+} // namespace
+
+Value read_value(const XmlFile& xml, pugi::xml_node node, const FileFinder& files,
+                 std::vector<std::string>& notes) {
+    const std::string_view tag = node.name();
+    for (const ValueReader& reader : value_readers)
+        if (reader.tag == tag) return reader.read({xml, node, files, notes});
+    refuse(xml.location(node), "unknown element <" + std::string(tag) + ">");
+}
+
+} // namespace parhelion::mitsuba

@@ -1,0 +1,103 @@
+// The header of a PLY file: which elements with which properties follow, in which encoding.
+#include "host/scene/ply_header.h"
+
+#include "host/scene/text.h"
+
+#include <algorithm>
+#include <array>
+
+namespace parhelion {
+
+namespace {
+
+struct TypeName {
+    std::string_view old_name, new_name;
+    PlyType type;
+    std::size_t size;
+};
+
+constexpr std::array<TypeName, 8> type_names = {{{"char", "int8", PlyType::int8, 1},
+                                                 {"uchar", "uint8", PlyType::uint8, 1},
+                                                 {"short", "int16", PlyType::int16, 2},
+                                                 {"ushort", "uint16", PlyType::uint16, 2},
+                                                 {"int", "int32", PlyType::int32, 4},
+                                                 {"uint", "uint32", PlyType::uint32, 4},
+                                                 {"float", "float32", PlyType::float32, 4},
+                                                 {"double", "float64", PlyType::float64, 8}}};
+
+PlyType type_of(std::string_view word, const SourceLocation& place) {
+    for (const TypeName& t : type_names)
+        if (word == t.old_name || word == t.new_name) return t.type;
+    refuse(place, "unknown PLY type " + in_quotes(word));
+}
+
+using Words = std::vector<std::string_view>;
+
+PlyEncoding encoding_of(const Words& words, const SourceLocation& place) {
+    if (words.size() == 3 && words[2] == "1.0") {
+        if (words[1] == "ascii") return PlyEncoding::ascii;
+        if (words[1] == "binary_little_endian") return PlyEncoding::little_endian;
+        if (words[1] == "binary_big_endian") return PlyEncoding::big_endian;
+    }
+    refuse(place, "the format must be \"ascii\", \"binary_little_endian\" or "
+                  "\"binary_big_endian\", version 1.0");
+}
+
+PlyElement element_of(const Words& words, const SourceLocation& place) {
+    const std::optional<std::int64_t> count =
+        words.size() == 3 ? parse_integer(words[2]) : std::nullopt;
+    if (!count || *count < 0) refuse(place, "an element is written \"element <name> <count>\"");
+    return {std::string(words[1]), static_cast<std::uint64_t>(*count), {}};
+}
+
+PlyProperty property_of(const Words& words, const SourceLocation& place) {
+    if (words.size() == 3)
+        return {std::string(words[2]), type_of(words[1], place), false, PlyType::uint8};
+    if (words.size() != 5 || words[1] != "list")
+        refuse(place, "a property is written \"property <type> <name>\" or "
+                      "\"property list <type> <type> <name>\"");
+    const PlyType count_type = type_of(words[2], place);
+    if (count_type == PlyType::float32 || count_type == PlyType::float64)
+        refuse(place, "the length of a list must be an integer type");
+    return {std::string(words[4]), type_of(words[3], place), true, count_type};
+}
+
+} // namespace
+
+std::size_t ply_type_size(PlyType type) {
+    return std::find_if(type_names.begin(), type_names.end(),
+                        [&](const TypeName& t) { return t.type == type; })
+        ->size;
+}
+
+PlyHeader read_ply_header(std::string_view file, const std::string& name) {
+    PlyHeader header;
+    SourceLocation place{name, 0};
+    bool has_format = false;
+    for (std::size_t start = 0; start < file.size();) {
+        const std::size_t end = std::min(file.find('\n', start), file.size());
+        const Words words = split(file.substr(start, end - start), " \t\r");
+        start = end + 1;
+        const bool first = place.line++ == 0;
+        if (first && (words.size() != 1 || words[0] != "ply"))
+            refuse(place, "not a PLY file: it does not start with a line \"ply\"");
+        if (first || words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+        if (words[0] == "format") {
+            header.encoding = encoding_of(words, place);
+            has_format = true;
+        } else if (words[0] == "element") {
+            header.elements.push_back(element_of(words, place));
+        } else if (words[0] == "property" && !header.elements.empty()) {
+            header.elements.back().properties.push_back(property_of(words, place));
+        } else if (words[0] == "end_header" && has_format) {
+            header.data_start = std::min(start, file.size());
+            header.lines = place.line;
+            return header;
+        } else {
+            refuse(place, "unexpected " + in_quotes(words[0]) + " in the header of a PLY file");
+        }
+    }
+    refuse(place, "the header of the PLY file has no end");
+}
+
+} // namespace parhelion
