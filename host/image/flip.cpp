@@ -20,8 +20,7 @@ using Planes = std::array<Plane, 3>;
 using Color = std::array<double, 3>;
 using std::numbers::pi;
 
-// ------------------------------------------------------------------------------------ colour
-// spaces
+// ---- colour spaces
 
 /// Linear sRGB to XYZ: exact, from the chromaticities of the sRGB primaries and of D65.
 constexpr Matrix3 srgb_to_xyz{
@@ -62,8 +61,7 @@ double hyab(const Color& a, const Color& b) {
     return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
 }
 
-// --------------------------------------------------------------------------------------
-// convolution
+// ---- convolution
 
 /// A separable filter is two of these; the middle entry is the pixel itself.
 using Taps = std::vector<double>;
@@ -109,7 +107,7 @@ double sum(const Taps& taps) {
     return total;
 }
 
-// ---------------------------------------------------------------------------- filters of the eye
+// ---- filters of the eye
 
 /// Contrast sensitivity in the frequency domain as Gaussians a exp(-pi^2 d^2 / b) (d in degrees).
 struct Gaussian {
@@ -152,7 +150,7 @@ Plane filter_gaussians(const Plane& plane, Size size, const std::array<Gaussian,
     return out;
 }
 
-// ------------------------------------------------------------------------------ colour difference
+// ---- colour difference
 
 /// What the eye resolves of the opponent planes, as Hunt-adjusted Lab.
 std::vector<Color> perceived_colors(const Planes& opponent, Size size, double pixels_per_degree) {
@@ -185,7 +183,7 @@ double redistribute(double raised_distance) {
     return knee_out + (raised_distance - knee) / (largest - knee) * (1.0 - knee_out);
 }
 
-// ------------------------------------------------------------------------------ feature difference
+// ---- feature difference
 
 /// First or second derivative of a Gaussian, each sign scaled to the sum 1, with the plain
 /// Gaussian across, scaled to 1 as well.
@@ -239,7 +237,7 @@ Features find_features(const Planes& opponent, Size size, double pixels_per_degr
             feature_strength(luminance, size, feature_taps(pixels_per_degree, true))};
 }
 
-// -------------------------------------------------------------------------------------------- FLIP
+// ---- FLIP
 
 Planes to_opponent(const LinearRgb& rgb, std::size_t count) {
     if (rgb.r.size() != count || rgb.g.size() != count || rgb.b.size() != count)
