@@ -1,0 +1,62 @@
+// Boxes of triangles, spheres and disks.
+#include "host/bvh/bounds.h"
+
+#include "kernels/shared/features.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace parhelion {
+namespace {
+
+struct Interval {
+    float low, high;
+};
+
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
+
+Interval triangle_extent(float a, float b, float c) {
+    return {std::min({a, b, c}), std::max({a, b, c})};
+}
+
+/// The floats next to centre -+ reach, outward: the conversion to float may round inward by half a
+/// unit.
+Interval outward(float centre, double reach) {
+    return {std::nextafter(float(centre - reach), -INFINITE),
+            std::nextafter(float(centre + reach), INFINITE)};
+}
+
+/// The point of { a u + b v : a^2 + b^2 <= 1 } farthest along an axis is sqrt(u^2 + v^2) away, u
+/// and v along that axis.
+Interval disk_extent(float centre, float u, float v) {
+    return outward(centre, std::sqrt(double(u) * u + double(v) * v));
+}
+
+std::array<Interval, 3> extents(const PrimitiveRecord& p) {
+    switch (geometry_kind(p)) {
+    case geometry_sphere: {
+        double radius = std::fabs(p.radius);
+        return {outward(p.ax, radius), outward(p.ay, radius), outward(p.az, radius)};
+    }
+    case geometry_disk:
+        return {disk_extent(p.ax, p.bx, p.cx), disk_extent(p.ay, p.by, p.cy),
+                disk_extent(p.az, p.bz, p.cz)};
+    default:
+        return {triangle_extent(p.ax, p.bx, p.cx), triangle_extent(p.ay, p.by, p.cy),
+                triangle_extent(p.az, p.bz, p.cz)};
+    }
+}
+
+} // namespace
+
+Reference make_reference(const PrimitiveRecord& primitive, int number) {
+    std::array<Interval, 3> e = extents(primitive);
+    // + 0 turns -0 into 0 and changes nothing else.
+    Float4 low = {e[0].low + 0.f, e[1].low + 0.f, e[2].low + 0.f, hide_integer(number)};
+    Float4 high = {e[0].high + 0.f, e[1].high + 0.f, e[2].high + 0.f,
+                   hide_integer(geometry_kind(primitive))};
+    return {{low, high}};
+}
+
+} // namespace parhelion

@@ -1,0 +1,96 @@
+// From primitives to a finished tree: references, binary tree, collapse, layout.
+#include "host/bvh/bvh.h"
+
+#include "host/bvh/binary_tree.h"
+#include "host/bvh/collapse.h"
+#include "host/bvh/wide_layout.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <chrono>
+
+namespace parhelion {
+namespace {
+
+template<class NumberOf>
+std::vector<Reference> make_references(std::span<const PrimitiveRecord> primitives,
+                                       std::size_t count, const NumberOf& number_of) {
+    std::vector<Reference> references(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        int number = number_of(i);
+        references[i] = make_reference(primitives[std::size_t(number)], number);
+    });
+    return references;
+}
+
+struct Built {
+    int root;
+    double sah_cost = 0;
+    int depth = 1, stack_entries = 0;
+};
+
+/// Builds a tree and appends it whole, or, where it needs more stack than allowed and may be
+/// refused, not at all.
+bool append_tree(Bvh& bvh, std::span<const PrimitiveRecord> primitives, BinaryTree& tree,
+                 int stack_limit, bool may_refuse, Built& built) {
+    CollapsePlan plan = plan_collapse(tree);
+    std::size_t nodes_before = bvh.nodes.size();
+    WideTree wide = append_nodes(bvh, tree, plan);
+    if (may_refuse && wide.stack_entries > stack_limit) {
+        bvh.nodes.resize(nodes_before);
+        return false;
+    }
+    append_leaves(bvh, tree, wide.leaves, primitives);
+    built = {wide.root, plan.sah_cost, wide.depth, wide.stack_entries};
+    return true;
+}
+
+Built append_references(Bvh& bvh, std::span<const PrimitiveRecord> primitives,
+                        std::vector<Reference> references, int stack_limit) {
+    if (references.empty()) return {append_empty_node(bvh)};
+    Built built;
+    BinaryTree tree = build_binary_tree(std::move(references), SplitMethod::surface_area);
+    if (append_tree(bvh, primitives, tree, stack_limit, true, built)) return built;
+    tree = build_binary_tree(std::move(tree.references), SplitMethod::halves);
+    append_tree(bvh, primitives, tree, stack_limit, false, built);
+    return built;
+}
+
+template<class NumberOf>
+int append_timed(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::size_t count,
+                 const NumberOf& number_of, BvhStatistics* statistics, int stack_limit) {
+    auto start = std::chrono::steady_clock::now();
+    std::size_t nodes_before = bvh.nodes.size(), leaves_before = bvh.leaves.size();
+    Built built = append_references(bvh, primitives, make_references(primitives, count, number_of),
+                                    stack_limit);
+    if (statistics) {
+        BvhStatistics s;
+        s.node_count = bvh.nodes.size() - nodes_before;
+        s.leaf_count = bvh.leaves.size() - leaves_before;
+        s.bytes = s.node_count * sizeof(BvhNode) + s.leaf_count * sizeof(BvhLeaf);
+        s.sah_cost = built.sah_cost;
+        s.depth = built.depth;
+        s.stack_entries = built.stack_entries;
+        s.leaf_fill = s.leaf_count ? double(count) / double(s.leaf_count * BVH_WIDTH) : 0;
+        s.build_seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        *statistics = s;
+    }
+    return built.root;
+}
+
+} // namespace
+
+int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::span<const int> subset,
+               BvhStatistics* statistics, int stack_limit) {
+    auto number_of = [subset](std::size_t i) { return subset[i]; };
+    return append_timed(bvh, primitives, subset.size(), number_of, statistics, stack_limit);
+}
+
+int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, BvhStatistics* statistics,
+               int stack_limit) {
+    auto number_of = [](std::size_t i) { return int(i); };
+    return append_timed(bvh, primitives, primitives.size(), number_of, statistics, stack_limit);
+}
+
+} // namespace parhelion

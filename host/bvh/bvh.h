@@ -1,0 +1,73 @@
+// The tree of boxes that rays walk: 16 children a node, up to 16 primitives of one kind a leaf
+// (layout: BvhNode, BvhLeaf).
+#pragma once
+
+#include "kernels/shared/types.h"
+
+#include <cstddef>
+#include <new>
+#include <span>
+#include <vector>
+
+namespace parhelion {
+
+/// Allocates whole cache lines, and leaves the elements of resize() uninitialised: the threads that
+/// fill them touch them first.
+template<class T>
+struct CacheLineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t alignment{64};
+
+    CacheLineAllocator() = default;
+    template<class U>
+    CacheLineAllocator(const CacheLineAllocator<U>&) {}
+
+    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
+    void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
+    template<class U>
+    void construct(U* p) {
+        ::new (static_cast<void*>(p)) U;
+    }
+    template<class U, class... Arguments>
+    void construct(U* p, Arguments&&... arguments) {
+        ::new (static_cast<void*>(p)) U(static_cast<Arguments&&>(arguments)...);
+    }
+    bool operator==(const CacheLineAllocator&) const { return true; }
+};
+
+template<class T>
+using CacheLineVector = std::vector<T, CacheLineAllocator<T>>;
+
+/// One or several trees, which share the two arrays.
+struct Bvh {
+    CacheLineVector<BvhNode> nodes;
+    CacheLineVector<BvhLeaf> leaves;
+};
+
+/// What one call of bvh_append made.
+struct BvhStatistics {
+    double build_seconds = 0;
+    double sah_cost = 0; ///< expected cost of a ray through the root's box, in visits of a node
+    std::size_t node_count = 0, leaf_count = 0, bytes = 0;
+    int depth = 0;         ///< nodes on the longest way down; 0 where the root is a leaf
+    int stack_entries = 0; ///< most children that can wait at once when every box is hit
+    double leaf_fill = 0;  ///< used share of the leaves' places, 0 to 1
+};
+
+/// Entries of the stack with which the kernels walk (STACK_SIZE in kernels/device/traverse.h).
+inline constexpr int BVH_STACK_LIMIT = 512;
+
+/// Builds a tree over the primitives numbered in `subset` and appends it to bvh; returns the root
+/// as a child code:
+/// >= 0 a node, < 0 a leaf, ~((leaf << 2) | geometry kind). An empty subset gives a node whose 16
+/// children are empty. The result is the same bits for any number of threads. A tree that would
+/// need more than `stack_limit` stack entries is built again by halving, which needs at most 15
+/// (log2(n) + 3). Coordinates are finite; at most 2^29 leaves in bvh.
+int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::span<const int> subset,
+               BvhStatistics* statistics = nullptr, int stack_limit = BVH_STACK_LIMIT);
+
+/// The same over all primitives.
+int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives,
+               BvhStatistics* statistics = nullptr, int stack_limit = BVH_STACK_LIMIT);
+
+} // namespace parhelion

@@ -1,0 +1,151 @@
+// For the BVH tests: rays against every primitive, and down the wide tree, with the maths the
+// kernels use.
+#pragma once
+
+#include "host/bvh/bvh.h"
+#include "host/shared_maths.h"
+
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace parhelion::bvh_test {
+
+using Vector = std::array<float, 3>;
+
+struct Ray {
+    Vector origin, direction;
+};
+
+struct Hit {
+    float t = std::numeric_limits<float>::infinity();
+    int primitive = -1;
+
+    bool operator==(const Hit&) const = default;
+};
+
+/// A ray made ready, as traversal_ray in kernels/device/traverse.h does.
+struct ReadyRay {
+    Ray ray;
+    Vector inverse;
+    std::array<int, 3> axis;
+    f32::RayShear shear;
+
+    explicit ReadyRay(const Ray& r) : ray(r) {
+        Vector size;
+        for (int a = 0; a < 3; a++) {
+            float reciprocal = 1.f / r.direction[a];
+            inverse[a] = std::isinf(reciprocal)
+                             ? std::copysign(std::numeric_limits<float>::max(), r.direction[a])
+                             : reciprocal;
+            size[a] = std::fabs(r.direction[a]);
+        }
+        int z = size[0] > size[1] ? (size[0] > size[2] ? 0 : 2) : (size[1] > size[2] ? 1 : 2);
+        axis = {(z + 1) % 3, (z + 2) % 3, z};
+        shear = {r.direction[axis[0]] / r.direction[z], r.direction[axis[1]] / r.direction[z],
+                 1.f / r.direction[z]};
+    }
+
+    f32::vec3 relative(float x, float y, float z) const {
+        Vector v{x - ray.origin[0], y - ray.origin[1], z - ray.origin[2]};
+        return f32::v3(v[axis[0]], v[axis[1]], v[axis[2]]);
+    }
+};
+
+inline f32::vec3 to_vec3(const Vector& v) { return f32::v3(v[0], v[1], v[2]); }
+
+/// One primitive, given as a leaf's column of nine numbers.
+inline f32::Intersection intersect(int kind, const std::array<float, 9>& p, const ReadyRay& r,
+                                   float t_max) {
+    f32::vec3 origin = to_vec3(r.ray.origin), direction = to_vec3(r.ray.direction),
+              centre = f32::v3(p[0], p[1], p[2]);
+    if (kind == geometry_sphere)
+        return f32::intersect_sphere(f32::sub3(origin, centre), direction, p[3], t_max);
+    if (kind == geometry_disk)
+        return f32::intersect_disk(f32::sub3(centre, origin), direction, f32::v3(p[3], p[4], p[5]),
+                                   f32::v3(p[6], p[7], p[8]), t_max);
+    return f32::intersect_triangle(r.relative(p[0], p[1], p[2]), r.relative(p[3], p[4], p[5]),
+                                   r.relative(p[6], p[7], p[8]), r.shear, t_max);
+}
+
+/// The nearer hit wins, of equally near ones that of the lower number.
+inline void take(Hit& hit, const f32::Intersection& i, int primitive) {
+    if (!i.hit || i.t > hit.t) return;
+    if (i.t < hit.t || hit.primitive < 0 || primitive < hit.primitive) hit = {i.t, primitive};
+}
+
+inline int kind_of(const PrimitiveRecord& p) { return p.flags & PRIMITIVE_KIND_MASK; }
+
+inline std::array<float, 9> column_of(const PrimitiveRecord& p) {
+    if (kind_of(p) == geometry_sphere) return {p.ax, p.ay, p.az, p.radius};
+    return {p.ax, p.ay, p.az, p.bx, p.by, p.bz, p.cx, p.cy, p.cz};
+}
+
+inline Hit brute_force(std::span<const PrimitiveRecord> primitives, const Ray& ray) {
+    ReadyRay ready(ray);
+    Hit hit;
+    for (std::size_t i = 0; i < primitives.size(); i++)
+        take(hit, intersect(kind_of(primitives[i]), column_of(primitives[i]), ready, hit.t),
+             int(i));
+    return hit;
+}
+
+inline std::array<float, 9> leaf_column(const BvhLeaf& leaf, int place) {
+    std::array<float, 9> column;
+    for (std::size_t row = 0; row < 9; row++)
+        column[row] = leaf.rows[row][place];
+    return column;
+}
+
+/// Whether the ray meets the box of child k before t_max, as node_overlap does; and where it
+/// enters.
+inline bool meets_box(const BvhNode& node, int k, const ReadyRay& r, float t_max, float& entry) {
+    Vector near, far;
+    for (int a = 0; a < 3; a++) {
+        bool negative = r.inverse[a] < 0.f;
+        near[a] = (node.bounds[2 * a + negative][k] - r.ray.origin[a]) * r.inverse[a];
+        far[a] = (node.bounds[2 * a + 1 - negative][k] - r.ray.origin[a]) * r.inverse[a];
+    }
+    entry = f32::maxR(f32::maxR(near[0], near[1]), near[2]);
+    return f32::box_overlap(near[0], near[1], near[2], far[0], far[1], far[2], t_max);
+}
+
+/// Closest hit below `root`; `peak` becomes the most entries that ever waited. A child is skipped
+/// if its box begins behind the hit when its turn comes, as in the kernels.
+inline Hit walk(const Bvh& bvh, int root, const Ray& ray, std::size_t* peak = nullptr) {
+    struct Entry {
+        int child;
+        float entry;
+    };
+    ReadyRay ready(ray);
+    Hit hit;
+    std::vector<Entry> stack{{root, -std::numeric_limits<float>::infinity()}};
+    while (!stack.empty()) {
+        Entry current = stack.back();
+        stack.pop_back();
+        if (current.entry > hit.t * float(BOX_WIDENING)) continue;
+        if (current.child < 0) {
+            int code = ~current.child;
+            const BvhLeaf& leaf = bvh.leaves[std::size_t(code >> 2)];
+            for (int k = 0; k < BVH_WIDTH; k++)
+                if (leaf.primitive[k] >= 0)
+                    take(hit, intersect(code & 3, leaf_column(leaf, k), ready, hit.t),
+                         leaf.primitive[k]);
+            continue;
+        }
+        const BvhNode& node = bvh.nodes[std::size_t(current.child)];
+        std::size_t first = stack.size();
+        for (int k = 0; k < BVH_WIDTH; k++) {
+            float entry;
+            if (!meets_box(node, k, ready, hit.t, entry)) continue;
+            stack.push_back({node.child[k], entry});
+            bool nearest = stack.size() == first + 1 || entry < stack[stack.size() - 2].entry;
+            if (!nearest) std::swap(stack.back(), stack[stack.size() - 2]);
+        }
+        if (peak && stack.size() > first) *peak = std::max(*peak, stack.size() - 1);
+    }
+    return hit;
+}
+
+} // namespace parhelion::bvh_test
