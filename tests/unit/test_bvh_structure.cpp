@@ -1,0 +1,267 @@
+// What must hold for every tree: all primitives once, boxes that contain, leaves of one kind, a
+// stack that suffices.
+#include "tests/unit/test_bvh_shapes.h"
+
+#include "host/cl/embedded_kernels.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <string>
+
+using namespace parhelion;
+using namespace parhelion::bvh_test;
+
+namespace {
+
+struct Bounds {
+    Vector low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+
+    bool contains(const Bounds& inner) const {
+        bool all = true;
+        for (std::size_t a = 0; a < 3; a++)
+            all = all && low[a] <= inner.low[a] && inner.high[a] <= high[a];
+        return all;
+    }
+    void grow(const Vector& v) {
+        for (std::size_t a = 0; a < 3; a++)
+            low[a] = std::min(low[a], v[a]), high[a] = std::max(high[a], v[a]);
+    }
+};
+
+/// What the tree says of itself, gathered by going through all of it.
+struct Survey {
+    std::vector<int> seen; ///< how often each primitive stands in a leaf
+    std::size_t nodes = 0, leaves = 0, used_places = 0;
+    int depth = 0, stack_entries = 0;
+    int loose_boxes = 0, wrong_kinds = 0, wrong_columns = 0, gaps = 0;
+};
+
+/// Points that the primitive contains, or nearly: corners; the extremes of a sphere along the axes;
+/// points of a disk's rim.
+Bounds inner_bounds(const PrimitiveRecord& p) {
+    Bounds b;
+    Vector a{p.ax, p.ay, p.az}, u{p.bx, p.by, p.bz}, v{p.cx, p.cy, p.cz};
+    if (kind_of(p) == geometry_triangle)
+        for (const Vector& corner : {a, u, v})
+            b.grow(corner);
+    if (kind_of(p) == geometry_sphere)
+        for (std::size_t axis = 0; axis < 3; axis++)
+            for (float side : {-p.radius, p.radius}) {
+                Vector extreme = a;
+                extreme[axis] += side;
+                b.grow(extreme);
+            }
+    if (kind_of(p) == geometry_disk)
+        for (int i = 0; i < 64; i++) {
+            float angle = float(i) * .098174770f;
+            b.grow(add(a, add(scaled(u, std::cos(angle)), scaled(v, std::sin(angle)))));
+        }
+    return b;
+}
+
+class Surveyor {
+public:
+    Surveyor(const Bvh& bvh, const Primitives& primitives) : bvh_(bvh), primitives_(primitives) {
+        survey_.seen.assign(primitives.size(), 0);
+    }
+
+    Survey run(int root) {
+        visit(root, 1, 0);
+        return survey_;
+    }
+
+private:
+    Bounds visit(int child, int depth, int waiting) {
+        return child < 0 ? visit_leaf(~child) : visit_node(child, depth, waiting);
+    }
+
+    Bounds visit_leaf(int code) {
+        const BvhLeaf& leaf = bvh_.leaves.at(std::size_t(code >> 2));
+        survey_.leaves++;
+        Bounds all;
+        for (int k = 0; k < BVH_WIDTH; k++) {
+            std::array<float, 9> column = leaf_column(leaf, k);
+            if (leaf.primitive[k] < 0) {
+                survey_.wrong_columns += column != std::array<float, 9>{};
+                continue;
+            }
+            survey_.gaps += k > 0 && leaf.primitive[k - 1] < 0;
+            survey_.used_places++;
+            const PrimitiveRecord& p = primitives_.at(std::size_t(leaf.primitive[k]));
+            survey_.seen[std::size_t(leaf.primitive[k])]++;
+            survey_.wrong_kinds += kind_of(p) != (code & 3);
+            survey_.wrong_columns += column != column_of(p);
+            Bounds b = inner_bounds(p);
+            all.grow(b.low);
+            all.grow(b.high);
+        }
+        return all;
+    }
+
+    Bounds visit_node(int number, int depth, int waiting) {
+        const BvhNode& node = bvh_.nodes.at(std::size_t(number));
+        survey_.nodes++;
+        survey_.depth = std::max(survey_.depth, depth);
+        int children = 0;
+        for (int k = 0; k < BVH_WIDTH; k++)
+            children += node.bounds[0][k] <= node.bounds[1][k];
+        waiting += std::max(0, children - 1);
+        survey_.stack_entries = std::max(survey_.stack_entries, waiting);
+        Bounds all;
+        for (int k = 0; k < BVH_WIDTH; k++) {
+            Bounds box{{node.bounds[0][k], node.bounds[2][k], node.bounds[4][k]},
+                       {node.bounds[1][k], node.bounds[3][k], node.bounds[5][k]}};
+            if (box.low[0] > box.high[0]) {
+                survey_.gaps += !(box.low == Bounds().low && box.high == Bounds().high);
+                continue;
+            }
+            survey_.gaps += k >= children;
+            survey_.loose_boxes += !box.contains(visit(node.child[k], depth + 1, waiting));
+            all.grow(box.low);
+            all.grow(box.high);
+        }
+        return all;
+    }
+
+    const Bvh& bvh_;
+    const Primitives& primitives_;
+    Survey survey_;
+};
+
+Survey check_tree(const Primitives& primitives, int stack_limit = BVH_STACK_LIMIT) {
+    Bvh bvh;
+    BvhStatistics statistics;
+    int root = bvh_append(bvh, primitives, &statistics, stack_limit);
+    Survey survey = Surveyor(bvh, primitives).run(root);
+    CHECK(std::all_of(survey.seen.begin(), survey.seen.end(), [](int n) { return n == 1; }));
+    CHECK(survey.loose_boxes == 0);
+    CHECK(survey.wrong_kinds == 0);
+    CHECK(survey.wrong_columns == 0);
+    CHECK(survey.gaps == 0);
+    CHECK(survey.nodes == bvh.nodes.size());
+    CHECK(survey.leaves == bvh.leaves.size());
+    CHECK(survey.nodes == statistics.node_count);
+    CHECK(survey.leaves == statistics.leaf_count);
+    CHECK(statistics.bytes == survey.nodes * sizeof(BvhNode) + survey.leaves * sizeof(BvhLeaf));
+    CHECK(statistics.leaf_fill == Approx(double(survey.used_places) / double(16 * survey.leaves)));
+    CHECK(survey.depth == statistics.depth);
+    CHECK(survey.stack_entries == statistics.stack_entries);
+    CHECK(survey.stack_entries <= stack_limit);
+    CHECK(std::isfinite(statistics.sah_cost));
+    return survey;
+}
+
+Primitives flattened(Primitives primitives) {
+    for (PrimitiveRecord& p : primitives)
+        p.ax = p.bx = p.cx = p.ay = p.by = p.cy = .5f;
+    return primitives;
+}
+
+Primitives magnified(Primitives primitives, float factor) {
+    for (PrimitiveRecord& p : primitives)
+        for (float* x : {&p.ax, &p.ay, &p.az, &p.bx, &p.by, &p.bz, &p.cx, &p.cy, &p.cz, &p.radius})
+            *x *= factor;
+    return primitives;
+}
+
+} // namespace
+
+TEST_CASE("Every tree holds each primitive once, in boxes that contain it", "[bvh]") {
+    struct Case {
+        const char* name;
+        Primitives primitives;
+    };
+    const Case cases[] = {
+        {"one", random_triangles(1, 1)},
+        {"sixteen", random_triangles(16, 1)},
+        {"seventeen", random_triangles(17, 1)},
+        {"thousands", random_triangles(5000, .1f)},
+        {"enough for several threads", random_triangles(100000, .01f)},
+        {"three kinds in one place", random_mixture(3)},
+        {"three kinds", random_mixture(5000)},
+        {"all alike", repeated(random_triangles(1, 1), 40000)},
+        {"all alike, three kinds", repeated(random_mixture(3), 1000)},
+        {"one plane", grid(50, 1)},
+        {"on a line", flattened(random_triangles(1000, 1))},
+        {"points", magnified(random_triangles(1000, 1), 0)},
+        {"as large as floats can be", magnified(random_mixture(1000), 1e38f)},
+        {"as small as floats can be", magnified(random_mixture(1000), 1e-43f)},
+        {"needles", needles(3000)},
+    };
+    for (const Case& c : cases) {
+        CAPTURE(c.name);
+        check_tree(c.primitives);
+    }
+}
+
+TEST_CASE("A tree over a subset leaves the other primitives and the trees before it alone",
+          "[bvh]") {
+    Primitives primitives = random_mixture(3000);
+    std::vector<int> odd;
+    for (int i = 1; i < 3000; i += 2)
+        odd.push_back(i);
+    Bvh bvh;
+    BvhStatistics statistics;
+    int all_root = bvh_append(bvh, primitives);
+    std::size_t nodes = bvh.nodes.size(), leaves = bvh.leaves.size();
+    int odd_root = bvh_append(bvh, primitives, odd, &statistics);
+    CHECK(bvh.nodes.size() == nodes + statistics.node_count);
+    CHECK(bvh.leaves.size() == leaves + statistics.leaf_count);
+    Survey both[] = {Surveyor(bvh, primitives).run(all_root),
+                     Surveyor(bvh, primitives).run(odd_root)};
+    for (int i = 0; i < 3000; i++)
+        REQUIRE((both[0].seen[i] == 1 && both[1].seen[i] == i % 2));
+    CHECK(both[0].loose_boxes + both[0].wrong_kinds + both[1].loose_boxes + both[1].wrong_kinds ==
+          0);
+}
+
+TEST_CASE("A tree of nothing is a node of empty boxes", "[bvh]") {
+    Bvh bvh;
+    BvhStatistics statistics;
+    int root = bvh_append(bvh, {}, &statistics);
+    REQUIRE(root == 0);
+    CHECK(statistics.node_count == 1);
+    CHECK(statistics.leaf_count == 0);
+    for (int k = 0; k < BVH_WIDTH; k++) {
+        CHECK(bvh.nodes[0].bounds[0][k] == INFINITY);
+        CHECK(bvh.nodes[0].bounds[1][k] == -INFINITY);
+    }
+    Random random(1);
+    for (int i = 0; i < 100; i++)
+        CHECK(walk(bvh, root, random_ray(random, i)).primitive == -1);
+}
+
+TEST_CASE("The stack the kernels have suffices for every tree", "[bvh]") {
+    SECTION("the builder's limit is the kernels' limit") {
+        std::span<const EmbeddedFile> files = embedded_kernels();
+        auto traverse = std::find_if(files.begin(), files.end(), [](const EmbeddedFile& f) {
+            return f.path == "device/traverse.h";
+        });
+        REQUIRE(traverse != files.end());
+        std::string definition = "#define STACK_SIZE " + std::to_string(BVH_STACK_LIMIT) + "\n";
+        CHECK(traverse->text.find(definition) != std::string_view::npos);
+    }
+    SECTION("geometric series") {
+        for (float ratio : {1.01f, 1.1f, 2.f, 10.f})
+            check_tree(repeated(geometric_series(ratio, 8000), 3));
+    }
+    SECTION("a tree over the limit is built again by halving") {
+        Primitives primitives = geometric_series(1.1f, 1500);
+        int unlimited = check_tree(primitives).stack_entries;
+        int limited = check_tree(primitives, unlimited - 1).stack_entries;
+        CHECK(limited < unlimited);
+    }
+    SECTION("no walk has more waiting than the statistics say") {
+        Primitives primitives = random_triangles(3000, .3f);
+        Bvh bvh;
+        BvhStatistics statistics;
+        int root = bvh_append(bvh, primitives, &statistics);
+        Random random(7);
+        std::size_t peak = 0;
+        for (int i = 0; i < 1000; i++)
+            walk(bvh, root, random_ray(random, i), &peak);
+        CHECK(peak <= std::size_t(statistics.stack_entries));
+        CHECK(peak > std::size_t(statistics.stack_entries) / 4);
+    }
+}
