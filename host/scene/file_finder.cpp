@@ -20,8 +20,7 @@ bool is_below(const fs::path& path, const fs::path& folder) {
 
 FileFinder::FileFinder(const fs::path& scene_file, bool allow_outside)
     : scene_folder_(scene_file.parent_path()), allow_outside_(allow_outside) {
-    if (scene_folder_.empty()) scene_folder_ = ".";
-    scene_root_ = fs::canonical(scene_folder_);
+    scene_root_ = fs::canonical(scene_folder_.empty() ? "." : scene_folder_);
 }
 
 fs::path FileFinder::find(const std::string& name, const SourceLocation& place,

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <map>
 #include <sstream>
 
 namespace parhelion {
@@ -21,7 +20,20 @@ namespace {
 
 constexpr std::size_t max_obj_bytes = std::size_t(4) << 30;
 constexpr std::size_t max_corners = 255; ///< the library counts them in a byte
-constexpr std::string_view blanks = " \t\r";
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// Splits at blanks into `words`, whose memory is used again for the next line.
+void split_line(std::string_view line, std::vector<std::string_view>& words) {
+    words.clear();
+    for (std::size_t i = 0; i < line.size();) {
+        const std::size_t start = i;
+        while (i < line.size() && !is_blank(line[i]))
+            ++i;
+        if (i > start) words.push_back(line.substr(start, i - start));
+        ++i;
+    }
+}
 
 /// The library takes 0 for a number it cannot read; so all numbers are looked at beforehand.
 void check_numbers(const std::vector<std::string_view>& words, std::size_t needed,
@@ -44,6 +56,7 @@ private:
     void check_corner(std::string_view corner) const;
 
     SourceLocation place_;
+    std::vector<std::string_view> words_;  ///< of the current line
     std::array<std::int64_t, 3> counts_{}; ///< of v, vt and vn so far
 };
 
@@ -67,7 +80,8 @@ void TextCheck::check_corner(std::string_view corner) const {
 }
 
 void TextCheck::check_line(std::string_view line) {
-    const std::vector<std::string_view> words = split(line.substr(0, line.find('#')), blanks);
+    split_line(line.substr(0, line.find('#')), words_);
+    const std::vector<std::string_view>& words = words_;
     if (words.empty()) return;
     if (words[0] == "v" || words[0] == "vn") {
         check_numbers(words, 3, place_);
@@ -97,7 +111,8 @@ void TextCheck::check(std::string_view text) {
 class VertexTable {
 public:
     VertexTable(const tinyobj::attrib_t& attributes, bool flip_v, const SourceLocation& place)
-        : attributes_(attributes), flip_v_(flip_v), place_(place) {}
+        : attributes_(attributes), flip_v_(flip_v), place_(place),
+          latest_(attributes.vertices.size() / 3, no_vertex) {}
 
     std::uint32_t vertex(const tinyobj::index_t& corner);
     MeshData mesh;
@@ -106,10 +121,18 @@ private:
     const double* entry(const std::vector<double>& values, int index, std::size_t width,
                         const char* what) const;
 
+    /// A vertex made from a position, and the next one made from the same.
+    struct Link {
+        int texture, normal;
+        std::uint32_t next;
+    };
+    static constexpr std::uint32_t no_vertex = ~std::uint32_t(0);
+
     const tinyobj::attrib_t& attributes_;
     bool flip_v_;
     const SourceLocation& place_;
-    std::map<std::array<int, 3>, std::uint32_t> known_;
+    std::vector<std::uint32_t> latest_; ///< by position: the vertex last made from it
+    std::vector<Link> links_;           ///< by vertex
 };
 
 const double* VertexTable::entry(const std::vector<double>& values, int index, std::size_t width,
@@ -124,10 +147,12 @@ const double* VertexTable::entry(const std::vector<double>& values, int index, s
 std::uint32_t VertexTable::vertex(const tinyobj::index_t& corner) {
     const std::array<int, 3> key = {corner.vertex_index, corner.texcoord_index,
                                     corner.normal_index};
-    const auto [known, added] =
-        known_.emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
-    if (!added) return known->second;
     const double* const p = entry(attributes_.vertices, key[0], 3, "vertex");
+    std::uint32_t& latest = latest_[static_cast<std::size_t>(key[0])];
+    for (std::uint32_t v = latest; v != no_vertex; v = links_[v].next)
+        if (links_[v].texture == key[1] && links_[v].normal == key[2]) return v;
+    links_.push_back({key[1], key[2], latest});
+    latest = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.emplace_back(p[0], p[1], p[2]);
     glm::dvec2 uv(0.0);
     if (key[1] != -1) {
@@ -143,7 +168,7 @@ std::uint32_t VertexTable::vertex(const tinyobj::index_t& corner) {
             refuse(place_, "vertex normal " + std::to_string(key[2] + 1) + " is zero");
     }
     mesh.normals.push_back(normal);
-    return known->second;
+    return latest;
 }
 
 void add_faces(VertexTable& table, const tinyobj::mesh_t& faces, const SourceLocation& place) {

@@ -111,11 +111,9 @@ Film read_film(const Document& document, const Object& object, Notes& notes) {
     Properties p(document, object, notes);
     const FilmReader read = find_plugin(film_plugins, object);
     Film film = read(p);
-    const std::vector<const Child*> filters = p.children("rfilter");
+    const Object* const filter = p.only_child("rfilter");
     p.finish();
-    if (filters.size() > 1)
-        refuse(filters[1]->location, p.title() + " has more than one <rfilter>");
-    if (!filters.empty()) film.filter = read_filter(document, p.target(*filters[0]), notes);
+    if (filter) film.filter = read_filter(document, *filter, notes);
     return film;
 }
 

@@ -182,6 +182,13 @@ std::vector<const Child*> Properties::children(std::string_view tag) {
     return result;
 }
 
+const Object* Properties::only_child(std::string_view tag) {
+    const std::vector<const Child*> found = children(tag);
+    if (found.size() > 1)
+        refuse(found[1]->location, fmt::format("{} has more than one <{}>", title(), tag));
+    return found.empty() ? nullptr : &target(*found[0]);
+}
+
 void Properties::note(std::string_view about, const std::string& message) {
     notes_.push_back(location_of(about).to_string() + ": " + message);
 }

@@ -50,6 +50,8 @@ public:
 
     /// Takes the plugins of kind `tag` inside this one, in their order.
     std::vector<const Child*> children(std::string_view tag);
+    /// The one plugin of kind `tag`, or null; refuses a second one.
+    const Object* only_child(std::string_view tag);
     const Object& target(const Child& child) const { return document_.objects[child.object]; }
 
     /// One line for the user, with this plugin's (or the parameter's) place.

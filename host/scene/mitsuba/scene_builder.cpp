@@ -26,6 +26,7 @@ private:
     };
 
     void add(const Child& child);
+    void check_definition(const Child& child, const Object& object);
     void add_shape(const Object& object);
     void add_emitter(const Object& object);
     void set_sensor(const Child& child);
@@ -83,6 +84,10 @@ void SceneBuilder::add_shape(const Object& object) {
 }
 
 void SceneBuilder::add_emitter(const Object& object) {
+    if (object.plugin == "area" && !object.id.empty()) { // for a shape to refer to
+        static_cast<void>(read_area_emitter(document_, object, scene_.notes));
+        return;
+    }
     const Emitter emitter = read_emitter(document_, object, scene_.notes);
     if (std::holds_alternative<ConstantEmitter>(emitter)) {
         if (background_)
@@ -123,13 +128,25 @@ void SceneBuilder::add(const Child& child) {
         set_sensor(child);
     else if (object.tag == "integrator")
         set_integrator(child);
-    else if (object.tag == "bsdf")
-        // Read even if no shape uses it, so that its mistakes are found.
-        static_cast<void>(read_bsdf(document_, object, scene_.notes));
     else
-        refuse(child.location, "<scene> cannot hold the " + object.tag + " plugin " +
-                                   in_quotes(object.plugin) +
-                                   " (accepted: bsdf, emitter, integrator, sensor, shape)");
+        check_definition(child, object);
+}
+
+/// What stands in the scene only to be referred to. It is read even if nothing does, so that its
+/// mistakes are found.
+void SceneBuilder::check_definition(const Child& child, const Object& object) {
+    if (object.tag == "bsdf")
+        static_cast<void>(read_bsdf(document_, object, scene_.notes));
+    else if (object.tag == "film")
+        static_cast<void>(read_film(document_, object, scene_.notes));
+    else if (object.tag == "rfilter")
+        static_cast<void>(read_filter(document_, object, scene_.notes));
+    else if (object.tag == "sampler")
+        static_cast<void>(read_sampler(document_, object, scene_.notes));
+    else
+        refuse(child.location, object.tag + " plugin " + in_quotes(object.plugin) +
+                                   " is not supported (<scene> holds bsdf, emitter, integrator, "
+                                   "sensor, shape)");
 }
 
 Scene SceneBuilder::build(const std::string& file) {

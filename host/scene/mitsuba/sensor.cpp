@@ -107,13 +107,6 @@ constexpr PluginTable<SamplerReader, 5> sampler_plugins = {{{"independent", read
                                                             {"orthogonal", read_orthogonal},
                                                             {"ldsampler", read_nothing}}};
 
-const Object* only_child(Properties& p, const char* tag) {
-    const std::vector<const Child*> children = p.children(tag);
-    if (children.size() > 1)
-        refuse(children[1]->location, p.title() + " has more than one <" + tag + ">");
-    return children.empty() ? nullptr : &p.target(*children[0]);
-}
-
 constexpr int default_samples = 4; ///< Mitsuba's
 
 } // namespace
@@ -140,8 +133,8 @@ SensorParts read_sensor(const Document& document, const Object& object, Notes& n
     const SensorReader read = find_plugin(sensor_plugins, object);
     SensorParts parts;
     parts.camera = read(p);
-    const Object* const film = only_child(p, "film");
-    const Object* const sampler = only_child(p, "sampler");
+    const Object* const film = p.only_child("film");
+    const Object* const sampler = p.only_child("sampler");
     p.finish();
     parts.film.pixel_format = PixelFormat::rgb;
     parts.sampler.samples_per_pixel = default_samples;

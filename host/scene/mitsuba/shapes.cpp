@@ -154,21 +154,14 @@ constexpr PluginTable<ShapeReader, 7> shape_plugins = {{{"obj", read_obj},
                                                         {"sphere", read_sphere},
                                                         {"disk", read_disk}}};
 
-const Object* only_child(Properties& p, const char* tag) {
-    const std::vector<const Child*> children = p.children(tag);
-    if (children.size() > 1)
-        refuse(children[1]->location, p.title() + " has more than one <" + tag + ">");
-    return children.empty() ? nullptr : &p.target(*children[0]);
-}
-
 } // namespace
 
 ShapeParts read_shape(const Document& document, const Object& object, Notes& notes) {
     Properties p(document, object, notes);
     const ShapeReader read = find_plugin(shape_plugins, object);
     ShapeParts parts;
-    parts.bsdf = only_child(p, "bsdf");
-    parts.emitter = only_child(p, "emitter");
+    parts.bsdf = p.only_child("bsdf");
+    parts.emitter = p.only_child("emitter");
     parts.geometry = read({p, document, notes});
     p.finish();
     return parts;

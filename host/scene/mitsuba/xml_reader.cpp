@@ -1,5 +1,6 @@
 // From XML files to a Document: every kind of element, includes, references and old versions.
 #include "host/scene/mitsuba/document.h"
+#include "host/scene/mitsuba/references.h"
 #include "host/scene/mitsuba/substitution.h"
 #include "host/scene/mitsuba/xml_file.h"
 #include "host/scene/mitsuba/xml_values.h"
@@ -79,12 +80,10 @@ private:
     void read_path(const Source& source, pugi::xml_node node, std::size_t parent);
 
     void substitute(const Source& source, pugi::xml_node node);
-    void resolve_references();
-    void refuse_cycles() const;
 
     Document document_;
     Substitution substitution_;
-    std::map<std::string, std::size_t, std::less<>> ids_;
+    IdTable ids_;
 };
 
 void Reader::substitute(const Source& source, pugi::xml_node node) {
@@ -107,8 +106,7 @@ Document Reader::read(const std::string& file, const LoadOptions& options) {
     if (!root.attribute("version")) refuse(place, "<scene> lacks the attribute \"version\"");
     const Source source{xml, parse_version(root.attribute("version").value(), place)[0] < 2, 0};
     read_object(source, root, 0);
-    resolve_references();
-    refuse_cycles();
+    resolve_references(document_, ids_);
     for (const auto& [name, value] : options.parameters)
         if (!substitution_.used(name))
             throw InputError("-D " + name + "=" + value + ": " + file + " uses no $" + name);
@@ -249,48 +247,6 @@ void Reader::read_parameter(const Source& source, pugi::xml_node node, std::size
             refuse(place, "parameter " + in_quotes(name) + " is given twice, first at " +
                               other.location.to_string());
     object.parameters.push_back({std::move(name), node.name(), place, std::move(value)});
-}
-
-void Reader::resolve_references() {
-    for (Object& object : document_.objects)
-        for (Child& child : object.children) {
-            if (child.reference.empty()) continue;
-            const auto target = ids_.find(child.reference);
-            if (target == ids_.end())
-                refuse(child.location,
-                       "<ref>: there is no object with the id " + in_quotes(child.reference));
-            child.object = target->second;
-        }
-}
-
-void Reader::refuse_cycles() const {
-    enum class State { unseen, open, closed };
-    struct Step {
-        std::size_t object;
-        std::size_t next_child;
-    };
-    std::vector<State> states(document_.objects.size(), State::unseen);
-    for (std::size_t start = 0; start < states.size(); ++start) {
-        if (states[start] != State::unseen) continue;
-        std::vector<Step> path{{start, 0}};
-        states[start] = State::open;
-        while (!path.empty()) {
-            Step& top = path.back();
-            const std::vector<Child>& children = document_.objects[top.object].children;
-            if (top.next_child == children.size()) {
-                states[top.object] = State::closed;
-                path.pop_back();
-                continue;
-            }
-            const Child& child = children[top.next_child++];
-            if (states[child.object] == State::open)
-                refuse(child.location, "the reference to " + in_quotes(child.reference) +
-                                           " closes a circle: an object would contain itself");
-            if (states[child.object] == State::closed) continue;
-            states[child.object] = State::open;
-            path.push_back({child.object, 0});
-        }
-    }
 }
 
 } // namespace
