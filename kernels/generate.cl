@@ -34,7 +34,7 @@ kernel void generate(KERNEL_PARAMETERS) {
     int segment = get_global_id(0);
     int first = segment * params.segment_size;
     int last = min(first + params.segment_size, wave_paths(wave));
-    int to = segment_base(segment, params.segment_size), begin = to;
+    int to = segment * params.segment_stride, begin = to;
     Camera camera = camera_lanes(params.camera);
     for (int slot = first; slot < last; slot += LANES) {
         // All lanes of a packet share block and sample: a block has 16 pixels.

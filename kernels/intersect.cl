@@ -7,7 +7,7 @@
 /// Reads: path state (ray, t as its end, excluded). Writes: path state (t, b1, b2, primitive).
 kernel void intersect(KERNEL_PARAMETERS) {
     int segment = get_global_id(0);
-    int base = segment_base(segment, params.segment_size);
+    int base = segment * params.segment_stride;
     int end = base + counts[2 * segment];
     int root = depth == 0 ? params.camera_root : params.root;
     for (int at = base; at < end; at++) {

@@ -101,7 +101,7 @@ FN void write_aovs(global float* results, RenderParams params, PathVertex v, Pri
 /// Pushes: a shadow ray for each vertex with light to receive, a path for each that goes on; both packed in place.
 kernel void shade(KERNEL_PARAMETERS) {
     int segment = get_global_id(0);
-    int base = segment_base(segment, params.segment_size);
+    int base = segment * params.segment_stride;
     int end = base + counts[2 * segment];
     int next_path = base, next_shadow = base;
     long capacity = params.path_capacity;
@@ -176,7 +176,7 @@ kernel void shade(KERNEL_PARAMETERS) {
                 SHADOW_PACK_REAL(dy, to_light.y);
                 SHADOW_PACK_REAL(dz, to_light.z);
                 // The end is short of the emitter by the rounding error of a hit distance.
-                SHADOW_PACK_REAL(t, sel(e.distant, (Real)INFINITY, R(1. - GAMMA(32.))));
+                SHADOW_PACK_REAL(t, sel(e.distant, (Real)INFINITY, R(1.) - GAMMA(32.f)));
                 SHADOW_PACK_REAL(r, contribution.x);
                 SHADOW_PACK_REAL(g, contribution.y);
                 SHADOW_PACK_REAL(b, contribution.z);

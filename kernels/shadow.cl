@@ -7,7 +7,7 @@
 /// Reads: shadow state. Writes: results (r, g, b of the ray's own path slot; no other work-item has it).
 kernel void shadow(KERNEL_PARAMETERS) {
     int segment = get_global_id(0);
-    int base = segment_base(segment, params.segment_size);
+    int base = segment * params.segment_stride;
     int end = base + counts[2 * segment + 1];
     for (int at = base; at < end; at++) {
         TraversalRay ray = traversal_ray(SHADOW_AT(ox), SHADOW_AT(oy), SHADOW_AT(oz), SHADOW_AT(dx),

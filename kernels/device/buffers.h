@@ -51,7 +51,7 @@ enum ResultField { RESULT_FIELDS(RESULT_ENUM) result_field_count };
 #define STATISTIC_ENUM(name) statistic_##name,
 enum Statistic { STATISTICS(STATISTIC_ENUM) statistic_count };
 
-// A segment has this many spare entries behind it, which a packed store may overwrite.
+// A segment has this many spare entries behind it where lanes are many: a packed store overwrites them.
 #define SEGMENT_PADDING 16
 
 #endif

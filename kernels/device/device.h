@@ -11,6 +11,4 @@
     SCENE_BUFFERS(SCENE_PARAMETER) WORK_BUFFERS(WORK_PARAMETER)                                    \
     const RenderParams params, const WaveParams wave, const int depth
 
-/// First entry of a segment in the path and shadow state.
-FN int segment_base(int segment, int segment_size) { return segment * (segment_size + SEGMENT_PADDING); }
 FN int wave_paths(WaveParams w) { return w.block_count * w.sample_count * BLOCK_PIXELS; }

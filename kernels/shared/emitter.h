@@ -8,7 +8,7 @@ FN EmitterSample sel_emitter(Mask m, EmitterSample a, EmitterSample b) {
     s.q = sel3(m, a.q, b.q);
     s.q_error = sel3(m, a.q_error, b.q_error);
     s.q_normal = sel3(m, a.q_normal, b.q_normal);
-    s.distant = (m & a.distant) | (!m & b.distant);
+    s.distant = (m & a.distant) | ((!m) & b.distant);
     return s;
 }
 

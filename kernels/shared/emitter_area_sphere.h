@@ -25,7 +25,7 @@ FN SphereCone emitter_area_sphere_cone(Light l, vec3 p) {
 }
 
 FN Real emitter_area_sphere_cone_pdf(Light l, SphereCone c) {
-    return l.pmf * R(0.5 * INV_PI) / c.one_minus_cosine;
+    return l.pmf * R(INV_TWO_PI) / c.one_minus_cosine;
 }
 
 FN EmitterSample emitter_area_sphere_sample(Light l, vec3 p, vec2 u) {
@@ -49,7 +49,7 @@ FN EmitterSample emitter_area_sphere_sample(Light l, vec3 p, vec2 u) {
     vec3 toward = to_world(frame_from_normal(axis), v3(sin_alpha * phi.cosine, sin_alpha * phi.sine, cos_alpha));
     outward = sel3(cone.outside, toward, outward);
     vec3 q = add3(centre, scale3(outward, l.bx));
-    vec3 error = scale3(add3(abs3(centre), scale3(abs3(outward), l.bx)), R(GAMMA(7.)));
+    vec3 error = scale3(add3(abs3(centre), scale3(abs3(outward), l.bx)), GAMMA(7.f));
     EmitterSample by_area = emitter_area_finish(l, p, q, error, scale3(outward, l.extra));
     Real cone_pdf = emitter_area_sphere_cone_pdf(l, cone);
     vec3 cone_weight = scale3(light_radiance(l), sel(cone.visible, R(1.) / cone_pdf, R(0.)));

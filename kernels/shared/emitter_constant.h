@@ -3,11 +3,11 @@
 FN EmitterSample emitter_constant_sample(Light l, vec3 p, vec2 u) {
     EmitterSample s = emitter_sample_none();
     s.wi = sphere_uniform(u);
-    s.pdf = l.pmf * R(0.25 * INV_PI);
+    s.pdf = l.pmf * R(INV_FOUR_PI);
     s.weight = scale3(light_radiance(l), R(1.) / s.pdf);
     s.distant = s.pdf == s.pdf;
     return s;
 }
 
-FN Real emitter_constant_pdf(Light l, vec3 p, vec3 wi, vec3 q) { return l.pmf * R(0.25 * INV_PI); }
+FN Real emitter_constant_pdf(Light l, vec3 p, vec3 wi, vec3 q) { return l.pmf * R(INV_FOUR_PI); }
 FN Mask emitter_constant_faces(Light l, vec3 wi, vec3 q) { return wi.x == wi.x; }

@@ -19,14 +19,15 @@ FN Fresnel fresnel_dielectric(Real c, Interface i) {
     Mask transmits = g_squared > R(0.);
     Real g = sqrtR(sel(transmits, g_squared, R(0.)));
     Real eta_squared = i.eta * i.eta;
-    Real s = c + g, q = eta_squared * c + g;
-    // c = g = 0 needs eta = 1 at grazing: no interface, no reflection.
-    Mask nothing = (s == R(0.)) | (q == R(0.));
-    Real s_squared = sel(nothing, R(1.), s * s), q_squared = sel(nothing, R(1.), q * q);
+    // (c + g)^2 and (eta^2 c + g)^2 from g^2, so that rounding never lifts a reflectance above 1. Grazing is total reflection,
+    // with or without an interface: the mirrored direction is the one straight on.
+    Real s_squared = sel(transmits, g_squared + c * (c + 2.f * g), R(1.));
+    Real q = eta_squared * c;
+    Real q_squared = sel(transmits, g_squared + q * (q + 2.f * g), R(1.));
     Real r_s = i.m_high / s_squared;
     Real r_p = i.m_high * ((eta_squared + 1.f) * p - 1.f) / q_squared;
     Fresnel f;
-    f.reflectance = sel(transmits | nothing, .5f * (r_s * r_s + r_p * r_p), R(1.));
+    f.reflectance = sel(transmits, .5f * (r_s * r_s + r_p * r_p), R(1.));
     f.transmittance = sel(transmits, 2.f * c * g * (R(1.) / s_squared + eta_squared / q_squared), R(0.));
     f.g = g;
     return f;

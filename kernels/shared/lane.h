@@ -11,7 +11,8 @@
 // ------------------------------------------------------------------------------------------------- OpenCL C
 #pragma OPENCL FP_CONTRACT OFF
 #define FN static inline __attribute__((always_inline))
-#define R(x) ((Real)(x##f))
+#define R_(x) ((Real)(x##f))
+#define R(x) R_(x)
 
 // The x86 intrinsics have a portable twin each; PORTABLE switches them off so that the twins can be tested.
 #if defined(__AVX512F__) && defined(__AVX512VL__) && !defined(PORTABLE)

@@ -1,7 +1,10 @@
 // Vectors of lanes and the elementary functions whose bits must be the same on every device.
 
 #define PI 3.14159265358979323846
+#define TWO_PI 6.28318530717958647693
 #define INV_PI 0.31830988618379067154
+#define INV_TWO_PI 0.15915494309189533577
+#define INV_FOUR_PI 0.07957747154594766788
 
 typedef struct { Real x, y; } vec2;
 typedef struct { Real x, y, z; } vec3;
@@ -44,8 +47,8 @@ typedef struct { Real sine, cosine; } SinCos;
 #ifdef PARHELION_REAL_IS_DOUBLE
 FN SinCos sincos_turns(Real u) {
     SinCos r;
-    r.sine = std::sin(R(2. * PI) * u);
-    r.cosine = std::cos(R(2. * PI) * u);
+    r.sine = std::sin(R(TWO_PI) * u);
+    r.cosine = std::cos(R(TWO_PI) * u);
     return r;
 }
 FN Real exp_negative(Real x) { return std::exp(x); }

@@ -1,7 +1,8 @@
 // Leaving a surface without hitting it again, at any scale of the scene.
 
 /// gamma(n) of Higham 2002: n half-ulps, compounded. Bounds the relative error of n roundings.
-#define GAMMA(n) ((n) * 5.9604644775390625e-8 / (1. - (n) * 5.9604644775390625e-8))
+#define HALF_ULP 5.9604644775390625e-8f
+#define GAMMA(n) ((Real)((n) * HALF_ULP / (1.f - (n) * HALF_ULP)))
 
 /// A point of the surface moved off it to the side that w points to, by no more than the rounding error of the point itself
 /// (error: absolute bounds a coordinate), then on to the next float (Pharr, Jakob and Humphreys 2016, section 3.9.5).

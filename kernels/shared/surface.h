@@ -28,9 +28,9 @@ FN SurfaceInteraction surface_triangle(Primitive p, Real b1, Real b2) {
     Real b0 = R(1.) - b1 - b2;
     SurfaceInteraction s;
     s.p = interpolate3(a, b, c, b1, b2);
-    s.error = scale3(interpolate3(abs3(a), abs3(b), abs3(c), absR(b1), absR(b2)), R(GAMMA(7.)));
+    s.error = scale3(interpolate3(abs3(a), abs3(b), abs3(c), absR(b1), absR(b2)), GAMMA(7.f));
     // 1 - b1 - b2 can round to a small negative number; its share of the bound must not be.
-    s.error = add3(s.error, scale3(abs3(a), (absR(b0) - b0) * R(GAMMA(7.))));
+    s.error = add3(s.error, scale3(abs3(a), (absR(b0) - b0) * GAMMA(7.f)));
     s.ng = normalize3(cross3(sub3(b, a), sub3(c, a)));
     s.ns = s.ng;
     s.uv = v2(b1, b2);
@@ -75,18 +75,18 @@ FN SurfaceInteraction surface_sphere(Primitive p, vec3 on_ray) {
     vec3 outward = normalize3(sub3(on_ray, centre));
     SurfaceInteraction s;
     s.p = add3(centre, scale3(outward, p.radius)); // back on the sphere: the error no longer grows with the ray's length
-    s.error = scale3(add3(abs3(centre), scale3(abs3(outward), p.radius)), R(GAMMA(7.)));
+    s.error = scale3(add3(abs3(centre), scale3(abs3(outward), p.radius)), GAMMA(7.f));
     s.ng = scale3(outward, primitive_side(p));
     s.ns = s.ng;
     s.tangent = splat3(R(0.));
     s.uv = v2(R(0.), R(0.));
     vec3 axis_y = cross3(axis_z, axis_x);
-    vec3 local = v3(dot3(outward, axis_x), dot3(outward, axis_y), dot3(outward, axis_z));
+    vec3 in_axes = v3(dot3(outward, axis_x), dot3(outward, axis_y), dot3(outward, axis_z));
     if (HAS(aovs)) {
-        Real phi = atan2R(local.y, local.x) * R(0.5 * INV_PI);
-        s.uv = v2(sel(phi < R(0.), phi + 1.f, phi), acosR(maxR(R(-1.), minR(R(1.), local.z))) * R(INV_PI));
+        Real phi = atan2R(in_axes.y, in_axes.x) * R(INV_TWO_PI);
+        s.uv = v2(sel(phi < R(0.), phi + 1.f, phi), acosR(maxR(R(-1.), minR(R(1.), in_axes.z))) * R(INV_PI));
     }
-    if (HAS(anisotropy)) s.tangent = sub3(scale3(axis_y, local.x), scale3(axis_x, local.y));
+    if (HAS(anisotropy)) s.tangent = sub3(scale3(axis_y, in_axes.x), scale3(axis_x, in_axes.y));
     return s;
 }
 
@@ -96,14 +96,14 @@ FN SurfaceInteraction surface_disk(Primitive p, Real b1, Real b2) {
     SurfaceInteraction s;
     s.p = add3(centre, add3(scale3(edge_u, b1), scale3(edge_v, b2)));
     s.error = scale3(add3(abs3(centre), add3(scale3(abs3(edge_u), absR(b1)), scale3(abs3(edge_v), absR(b2)))),
-                     R(GAMMA(7.)));
+                     GAMMA(7.f));
     s.ng = scale3(normalize3(cross3(edge_u, edge_v)), primitive_side(p));
     s.ns = s.ng;
     s.tangent = splat3(R(0.));
     s.uv = v2(R(0.), R(0.));
     Real r = sqrtR(b1 * b1 + b2 * b2);
     if (HAS(aovs)) {
-        Real phi = atan2R(b2, b1) * R(0.5 * INV_PI);
+        Real phi = atan2R(b2, b1) * R(INV_TWO_PI);
         s.uv = v2(r, sel(phi < R(0.), phi + 1.f, phi));
     }
     if (HAS(anisotropy)) {

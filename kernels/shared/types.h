@@ -136,6 +136,7 @@ LAYOUT(CameraRecord, 84);
     X(int, path_capacity)                     /* path slots in the pool */                          \
     X(int, state_stride)                      /* floats between two fields of the path state */     \
     X(int, segment_size)                      /* path slots owned by one work-item */               \
+    X(int, segment_stride)                    /* their entries in the path state, with padding */   \
     X(int, film_pixels)                       /* pixels in the film, whole blocks */                \
     X(int, aov_channels)                                                                           \
     X(int, camera_root) X(int, root)          /* BVH roots for camera rays and for all others */
@@ -144,7 +145,7 @@ typedef struct {
     RENDER_FIELDS(FIELD_DECLARE)
     int aov_offset[AOV_LIMIT]; // first film channel of each AOV kind, -1: not asked for
 } RenderParams;
-LAYOUT(RenderParams, 84 + 20 * 4 + AOV_LIMIT * 4);
+LAYOUT(RenderParams, 84 + 21 * 4 + AOV_LIMIT * 4);
 
 // A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
 // Slot p of the pool is lane p % 16 of sample (p / 16) % sample_count of block p / (16 * sample_count).

@@ -1,0 +1,75 @@
+// `parhelion devices`: what there is to render on, and whether it works.
+#include "host/commands/devices.h"
+
+#include "host/cl/self_test.h"
+#include "host/error.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace parhelion {
+namespace {
+
+struct Tested {
+    Device device;
+    std::string failure; ///< empty: passed
+};
+
+nlohmann::json to_json(const Tested& t) {
+    const Device& d = t.device;
+    return {{"index", d.index},
+            {"name", d.name},
+            {"vendor", d.vendor},
+            {"platform", d.platform},
+            {"driver", d.driver_version},
+            {"opencl", d.opencl_version},
+            {"cpu", d.is_cpu},
+            {"compute_units", d.compute_units},
+            {"memory_bytes", d.memory_bytes},
+            {"largest_buffer_bytes", d.max_allocation_bytes},
+            {"float_width", d.float_width},
+            {"lanes", d.lanes()},
+            {"fp64", d.fp64},
+            {"self_test", t.failure.empty() ? "passed" : t.failure}};
+}
+
+void print_text(const Tested& t) {
+    const Device& d = t.device;
+    fmt::print("{}: {}\n", d.index, d.name);
+    fmt::print("   {} ({}), driver {}, {}\n", d.platform, d.vendor, d.driver_version, d.opencl_version);
+    fmt::print("   {} compute units, {:.1f} GB memory, largest buffer {:.1f} GB, {} floats a vector, {} lanes, fp64 {}\n",
+               d.compute_units, static_cast<double>(d.memory_bytes) / 1e9, static_cast<double>(d.max_allocation_bytes) / 1e9,
+               d.float_width, d.lanes(), d.fp64 ? "yes" : "no");
+    fmt::print("   self-test {}\n", t.failure.empty() ? "passed" : "FAILED: " + t.failure);
+}
+
+int run_devices(bool json) {
+    DeviceList list = list_devices();
+    bool one_works = false;
+    nlohmann::json devices = nlohmann::json::array();
+    for (const Device& device : list.devices) {
+        Tested tested{device, self_test(device)};
+        one_works = one_works || tested.failure.empty();
+        if (json) devices.push_back(to_json(tested));
+        else print_text(tested);
+    }
+    if (json) fmt::print("{}\n", nlohmann::json{{"devices", devices}, {"failures", list.failures}}.dump(2));
+    for (const std::string& failure : list.failures) fmt::print(stderr, "parhelion: {}\n", failure);
+    if (list.devices.empty()) fmt::print(stderr, "parhelion: no OpenCL device (on a CPU, install pocl-opencl-icd)\n");
+    return static_cast<int>(one_works ? ExitCode::ok : ExitCode::device_failure);
+}
+
+} // namespace
+
+void add_devices_command(CLI::App& app, int& exit_code) {
+    CLI::App* sub = app.add_subcommand("devices", "List OpenCL devices and test each");
+    auto json = std::make_shared<bool>(false);
+    sub->add_flag("--json", *json, "One JSON object");
+    sub->footer("Example:\n  parhelion devices --json | jq '.devices[].name'");
+    sub->callback([json, &exit_code] { exit_code = run_devices(*json); });
+}
+
+} // namespace parhelion

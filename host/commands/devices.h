@@ -1,0 +1,11 @@
+// `parhelion devices`: what there is to render on, and whether it works.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace parhelion {
+
+/// Registers the subcommand; `exit_code` becomes device_failure where no device passes its self-test.
+void add_devices_command(CLI::App& app, int& exit_code);
+
+} // namespace parhelion

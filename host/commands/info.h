@@ -1,0 +1,11 @@
+// `parhelion info`: what is in a scene, and what its kernels will have.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace parhelion {
+
+/// Registers the subcommand; InputError passes through CLI::App::parse to the caller.
+void add_info_command(CLI::App& app);
+
+} // namespace parhelion

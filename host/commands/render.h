@@ -1,0 +1,41 @@
+// `parhelion render`: a scene file to an image file.
+#pragma once
+
+#include "host/render/path_tracer.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace parhelion {
+
+/// Everything the command line can say; what is absent is the scene's.
+struct RenderCommand {
+    std::string scene_file, output = "", stats_file, device;
+    std::vector<std::string> definitions; ///< name=value
+    std::vector<std::string> aovs;
+    std::optional<std::string> integrator, size, crop;
+    std::optional<int> samples, max_depth, rr_depth;
+    std::optional<std::uint32_t> seed;
+    std::optional<double> exposure;
+    int threads = 0; ///< 0: all
+    bool next_event = true;
+    bool force = false, quiet = false, allow_outside = false;
+    RenderOptions options;
+};
+
+/// Loads, renders and writes. Throws InputError before any output exists, or DeviceError.
+void run_render(const RenderCommand& command);
+
+/// Replaces what the scene file says by what the command line says. Throws InputError naming the option.
+void apply_overrides(const RenderCommand& command, Scene& scene);
+
+/// Registers the subcommand; errors pass through CLI::App::parse to the caller.
+void add_render_command(CLI::App& app);
+
+/// -D name=value pairs. Throws InputError for one without '='.
+std::map<std::string, std::string> parse_definitions(const std::vector<std::string>& definitions);
+
+} // namespace parhelion

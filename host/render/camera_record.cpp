@@ -1,0 +1,53 @@
+// The camera as the device reads it.
+#include "host/render/camera_record.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+
+namespace parhelion {
+namespace {
+
+struct Point {
+    float x, y, z;
+};
+
+Point to_float(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+} // namespace
+
+double horizontal_fov(const Camera& camera, int width, int height) {
+    double aspect = static_cast<double>(width) / height;
+    FovAxis axis = camera.fov_axis;
+    double half_tangent = 0.0;
+    if (camera.focal_length_mm) {
+        axis = FovAxis::diagonal;
+        half_tangent = std::hypot(36.0, 24.0) / (2.0 * *camera.focal_length_mm);
+    } else {
+        half_tangent = std::tan(0.5 * glm::radians(camera.fov_degrees.value_or(90.0)));
+    }
+    if (axis == FovAxis::smaller) axis = aspect > 1.0 ? FovAxis::y : FovAxis::x;
+    if (axis == FovAxis::larger) axis = aspect > 1.0 ? FovAxis::x : FovAxis::y;
+    if (axis == FovAxis::y) half_tangent *= aspect;
+    if (axis == FovAxis::diagonal) half_tangent /= std::sqrt(1.0 + 1.0 / (aspect * aspect));
+    return 2.0 * std::atan(half_tangent);
+}
+
+CameraRecord camera_record(const Camera& camera, int width, int height) {
+    glm::dvec3 left(camera.to_world[0]), up(camera.to_world[1]), forward(camera.to_world[2]);
+    double pixel = 2.0 * std::tan(0.5 * horizontal_fov(camera, width, height)) / width;
+    glm::dvec3 step_x = -left * pixel, step_y = -up * pixel;
+    glm::dvec2 centre = (0.5 - camera.principal_point_offset) * glm::dvec2(width, height);
+    Point o = to_float(glm::dvec3(camera.to_world[3]));
+    Point d = to_float(forward - centre.x * step_x - centre.y * step_y);
+    Point u = to_float(step_x), v = to_float(step_y);
+    Point l = to_float(left * camera.aperture_radius), m = to_float(up * camera.aperture_radius);
+    return {o.x, o.y, o.z, d.x, d.y, d.z, u.x, u.y, u.z, v.x, v.y, v.z, l.x, l.y, l.z, m.x, m.y, m.z,
+            static_cast<float>(camera.near_clip), static_cast<float>(camera.far_clip),
+            static_cast<float>(camera.focus_distance)};
+}
+
+} // namespace parhelion

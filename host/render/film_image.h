@@ -1,0 +1,30 @@
+// From the device's film to an image.
+#pragma once
+
+#include "host/image/image.h"
+#include "host/render/pipeline.h"
+#include "host/scene/scene.h"
+
+#include <vector>
+
+namespace parhelion {
+
+/// What the film's channels behind the results hold: for each AOV asked for, its name, kind and first channel.
+struct AovLayer {
+    std::string name; ///< of the EXR layer
+    int kind;         ///< enum AovKind
+    int channel;      ///< counted from the first AOV channel
+};
+
+struct AovPlan {
+    std::vector<AovLayer> layers;
+    int channels = 0;
+};
+
+/// Lays out the AOVs of an integrator. Throws InputError for a kind that there is not, naming those there are.
+AovPlan plan_aovs(const Integrator& integrator);
+
+/// Divides the film's sums by the filter weights and names the channels. `film` as the accumulate kernel leaves it.
+Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene, const AovPlan& aovs);
+
+} // namespace parhelion

@@ -1,0 +1,205 @@
+// The table of lights: every emitting primitive and every other emitter, picked in proportion to power.
+#include "host/render/light_table.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace parhelion {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double brightness(const Rgb& c) { return c.r + c.g + c.b; }
+
+glm::dvec3 point_a(const PrimitiveRecord& p) { return {p.ax, p.ay, p.az}; }
+glm::dvec3 point_b(const PrimitiveRecord& p) { return {p.bx, p.by, p.bz}; }
+glm::dvec3 point_c(const PrimitiveRecord& p) { return {p.cx, p.cy, p.cz}; }
+
+void set_a(LightRecord& l, const glm::dvec3& v) {
+    l.ax = static_cast<float>(v.x), l.ay = static_cast<float>(v.y), l.az = static_cast<float>(v.z);
+}
+void set_b(LightRecord& l, const glm::dvec3& v) {
+    l.bx = static_cast<float>(v.x), l.by = static_cast<float>(v.y), l.bz = static_cast<float>(v.z);
+}
+void set_c(LightRecord& l, const glm::dvec3& v) {
+    l.cx = static_cast<float>(v.x), l.cy = static_cast<float>(v.y), l.cz = static_cast<float>(v.z);
+}
+
+/// A row of the table in the making; power is in any common unit, area in m^2 (0: no area).
+struct Row {
+    LightRecord light{};
+    double power = 0.0;
+    double area = 0.0;
+    int primitive = -1;
+};
+
+Row make_row(EmitterKind kind, const Rgb& radiance) {
+    Row row;
+    row.light.kind = kind;
+    row.light.r = static_cast<float>(radiance.r);
+    row.light.g = static_cast<float>(radiance.g);
+    row.light.b = static_cast<float>(radiance.b);
+    return row;
+}
+
+/// The side a triangle emits from is its shading normal's: the record's winding follows that.
+bool normals_oppose_winding(const VertexRecord& v, const glm::dvec3& winding) {
+    glm::dvec3 sum(double{v.n0x} + v.n1x + v.n2x, double{v.n0y} + v.n1y + v.n2y, double{v.n0z} + v.n1z + v.n2z);
+    return glm::dot(sum, winding) < 0.0;
+}
+
+Row triangle_row(const DeviceScene& scene, int index, const Rgb& radiance) {
+    const PrimitiveRecord& p = scene.primitives[index];
+    glm::dvec3 a = point_a(p), b = point_b(p), c = point_c(p);
+    glm::dvec3 winding = glm::cross(b - a, c - a);
+    bool swap = (p.flags & PRIMITIVE_NORMALS) && !scene.vertices.empty() &&
+                normals_oppose_winding(scene.vertices[index], winding);
+    Row row = make_row(emitter_area_triangle, radiance);
+    set_a(row.light, a);
+    set_b(row.light, swap ? c : b);
+    set_c(row.light, swap ? b : c);
+    row.area = 0.5 * glm::length(winding);
+    return row;
+}
+
+Row primitive_row(const DeviceScene& scene, int index, const Rgb& radiance) {
+    const PrimitiveRecord& p = scene.primitives[index];
+    float side = (p.flags & PRIMITIVE_FLIPPED) ? -1.0f : 1.0f;
+    Row row;
+    switch (p.flags & PRIMITIVE_KIND_MASK) {
+    case geometry_sphere:
+        row = make_row(emitter_area_sphere, radiance);
+        set_a(row.light, point_a(p));
+        row.light.bx = p.radius;
+        row.light.extra = side;
+        row.area = 4.0 * pi * double{p.radius} * p.radius;
+        break;
+    case geometry_disk:
+        row = make_row(emitter_area_disk, radiance);
+        set_a(row.light, point_a(p));
+        set_b(row.light, point_b(p));
+        set_c(row.light, point_c(p));
+        row.light.extra = side;
+        row.area = pi * glm::length(glm::cross(point_b(p), point_c(p)));
+        break;
+    default: row = triangle_row(scene, index, radiance);
+    }
+    row.power = pi * row.area * brightness(radiance);
+    row.primitive = index;
+    return row;
+}
+
+Row emitter_row(const PointEmitter& e, double) {
+    Row row = make_row(emitter_point, e.intensity);
+    set_a(row.light, e.position);
+    row.power = 4.0 * pi * brightness(e.intensity);
+    return row;
+}
+
+Row emitter_row(const SpotEmitter& e, double) {
+    Row row = make_row(emitter_spot, e.intensity);
+    set_a(row.light, e.position);
+    set_b(row.light, e.direction);
+    row.light.cx = static_cast<float>(std::cos(e.cutoff_angle));
+    row.light.cy = static_cast<float>(e.cutoff_angle);
+    // With no transition the falloff is never evaluated: the two cosines meet.
+    double transition = e.cutoff_angle - e.beam_width;
+    row.light.cz = transition > 0.0 ? static_cast<float>(1.0 / transition) : 0.0f;
+    row.light.extra = static_cast<float>(std::cos(e.beam_width));
+    row.power = 2.0 * pi * (1.0 - std::cos(0.5 * (e.cutoff_angle + e.beam_width))) * brightness(e.intensity);
+    return row;
+}
+
+Row emitter_row(const DirectionalEmitter& e, double scene_radius) {
+    Row row = make_row(emitter_directional, e.irradiance);
+    set_b(row.light, e.direction);
+    row.power = pi * scene_radius * scene_radius * brightness(e.irradiance);
+    return row;
+}
+
+Row emitter_row(const ConstantEmitter& e, double scene_radius) {
+    Row row = make_row(emitter_constant, e.radiance);
+    row.power = 4.0 * pi * pi * scene_radius * scene_radius * brightness(e.radiance);
+    return row;
+}
+
+/// Half the diagonal of the box around all primitives; 1 for a scene without any.
+double scene_radius(const std::vector<PrimitiveRecord>& primitives) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
+    auto grow = [&](const glm::dvec3& p, double r) { low = glm::min(low, p - r), high = glm::max(high, p + r); };
+    for (const PrimitiveRecord& p : primitives) {
+        switch (p.flags & PRIMITIVE_KIND_MASK) {
+        case geometry_sphere: grow(point_a(p), p.radius); break;
+        case geometry_disk: grow(point_a(p), std::hypot(glm::length(point_b(p)), glm::length(point_c(p)))); break;
+        default: grow(point_a(p), 0.0), grow(point_b(p), 0.0), grow(point_c(p), 0.0);
+        }
+    }
+    double radius = 0.5 * glm::length(high - low);
+    return primitives.empty() || radius == 0.0 ? 1.0 : radius;
+}
+
+std::vector<Row> collect_rows(const Scene& scene, const DeviceScene& device) {
+    std::vector<Row> rows;
+    for (std::size_t i = 0; i < device.primitives.size(); i++) {
+        const Shape& shape = scene.shapes[device.primitives[i].shape];
+        if (shape.radiance) rows.push_back(primitive_row(device, static_cast<int>(i), *shape.radiance));
+    }
+    double radius = scene_radius(device.primitives);
+    for (const Emitter& emitter : scene.emitters)
+        rows.push_back(std::visit([&](const auto& e) { return emitter_row(e, radius); }, emitter));
+    std::erase_if(rows, [](const Row& row) { return !(row.power > 0.0); });
+    return rows;
+}
+
+} // namespace
+
+std::vector<LightAlias> make_alias_table(std::span<const double> weights) {
+    std::size_t n = weights.size();
+    double sum = 0.0;
+    for (double w : weights) sum += w;
+    std::vector<double> share(n);
+    std::vector<int> small, large;
+    for (std::size_t i = 0; i < n; i++) {
+        share[i] = weights[i] / sum * static_cast<double>(n);
+        (share[i] < 1.0 ? small : large).push_back(static_cast<int>(i));
+    }
+    std::vector<LightAlias> table(n);
+    for (std::size_t i = 0; i < n; i++) table[i] = {~0u, static_cast<int>(i)};
+    while (!small.empty() && !large.empty()) {
+        int s = small.back(), l = large.back();
+        small.pop_back();
+        table[s] = {static_cast<unsigned>(std::min(share[s] * 4294967296.0, 4294967295.0)), l};
+        share[l] -= 1.0 - share[s];
+        if (share[l] < 1.0) {
+            large.pop_back();
+            small.push_back(l);
+        }
+    }
+    return table;
+}
+
+void add_light_table(const Scene& scene, DeviceScene& out) {
+    std::vector<Row> rows = collect_rows(scene, out);
+    double total = 0.0;
+    std::vector<double> powers;
+    for (const Row& row : rows) {
+        total += row.power;
+        powers.push_back(row.power);
+    }
+    for (std::size_t i = 0; i < rows.size(); i++) {
+        Row& row = rows[i];
+        double pmf = row.power / total;
+        row.light.pmf = static_cast<float>(pmf);
+        row.light.density = row.area > 0.0 ? static_cast<float>(pmf / row.area) : 0.0f;
+        if (row.primitive >= 0) out.primitives[row.primitive].light = static_cast<int>(i);
+        if (row.light.kind == emitter_constant) out.constant_light = static_cast<int>(i);
+        out.lights.push_back(row.light);
+    }
+    if (!rows.empty()) out.light_aliases = make_alias_table(powers);
+}
+
+} // namespace parhelion

@@ -1,0 +1,169 @@
+// Rendering a scene on a device: the wavefront loop.
+#include "host/render/path_tracer.h"
+
+#include "host/render/camera_record.h"
+#include "host/render/film_image.h"
+#include "host/render/filter_table.h"
+#include "host/render/scene_features.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+namespace parhelion {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Edges from the camera after which nothing more is to be seen.
+int longest_path(const Integrator& integrator) {
+    switch (integrator.kind) {
+    case IntegratorKind::path: return integrator.max_depth < 0 ? std::numeric_limits<int>::max() : integrator.max_depth;
+    case IntegratorKind::direct: return 2;
+    case IntegratorKind::depth:
+    case IntegratorKind::normals:
+    case IntegratorKind::aov: return 1;
+    }
+    return 1;
+}
+
+RenderParams render_params(const Scene& scene, const DeviceScene& device, const WorkSizes& sizes, const AovPlan& aovs) {
+    RenderParams p{};
+    p.camera = camera_record(scene.camera, scene.film.width, scene.film.height);
+    p.film_width = scene.film.width;
+    p.crop_x = scene.film.crop_x, p.crop_y = scene.film.crop_y;
+    p.crop_width = scene.film.crop_width, p.crop_height = scene.film.crop_height;
+    p.blocks_x = sizes.blocks_x;
+    p.seed = static_cast<int>(scene.sampler.seed);
+    p.max_depth = longest_path(scene.integrator);
+    p.rr_depth = scene.integrator.rr_depth;
+    p.light_count = static_cast<int>(device.lights.size());
+    p.constant_light = device.constant_light;
+    p.filter_bins = device.filter_table.empty() ? 0 : static_cast<int>(device.filter_table.size()) - 1;
+    p.filter_radius = static_cast<float>(filter_radius(scene.film.filter));
+    p.path_capacity = sizes.path_capacity;
+    p.state_stride = static_cast<int>(sizes.state_stride());
+    p.segment_size = sizes.segment_size;
+    p.segment_stride = sizes.segment_stride;
+    p.film_pixels = static_cast<int>(sizes.film_pixels());
+    p.aov_channels = aovs.channels;
+    p.camera_root = device.camera_root;
+    p.root = device.root;
+    std::fill(std::begin(p.aov_offset), std::end(p.aov_offset), -1);
+    for (const AovLayer& layer : aovs.layers) p.aov_offset[layer.kind] = layer.channel;
+    return p;
+}
+
+/// All bounces of one wave, then its samples to the film.
+void trace_wave(Pipeline& pipeline, const WaveParams& wave, const WorkSizes& sizes, const RenderParams& params,
+                bool next_event, int work_group) {
+    pipeline.set_wave(wave);
+    pipeline.launch(Stage::generate, 0, sizes.segments, work_group);
+    for (int depth = 0; depth < params.max_depth; depth++) {
+        pipeline.launch(Stage::intersect, depth, sizes.segments, work_group);
+        pipeline.launch(Stage::shade, depth, sizes.segments, work_group);
+        if (depth + 1 == params.max_depth) break;
+        auto [paths, shadow_rays] = pipeline.read_counts();
+        if (next_event && shadow_rays > 0) pipeline.launch(Stage::shadow, depth, sizes.segments, work_group);
+        if (paths == 0) break;
+    }
+    pipeline.launch(Stage::accumulate, 0, wave.block_count, work_group);
+    pipeline.collect_times();
+}
+
+void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes, const RenderParams& params,
+                 bool next_event, int work_group, Progress& progress) {
+    auto start = std::chrono::steady_clock::now();
+    int samples = scene.sampler.samples_per_pixel, blocks = sizes.blocks_x * sizes.blocks_y;
+    double total = static_cast<double>(samples) * blocks, done = 0.0;
+    for (int sample = 0; sample < samples; sample += sizes.samples_per_wave) {
+        int sample_count = std::min(sizes.samples_per_wave, samples - sample);
+        for (int block = 0; block < blocks; block += sizes.blocks_per_wave) {
+            int block_count = std::min(sizes.blocks_per_wave, blocks - block);
+            trace_wave(pipeline, {block, block_count, sample, sample_count}, sizes, params, next_event, work_group);
+            done += static_cast<double>(sample_count) * block_count;
+            double rate = done * BLOCK_PIXELS / seconds_since(start) / 1e6;
+            progress.update(done / total, fmt::format("{:.2f} Mpaths/s", rate));
+        }
+    }
+}
+
+void add_counts(const std::array<std::uint64_t, statistic_count>& statistics, RenderReport& report) {
+    report.camera_rays = report.paths = statistics[statistic_camera_rays];
+    report.bounce_rays = statistics[statistic_bounce_rays];
+    report.shadow_rays = statistics[statistic_shadow_rays];
+    report.non_finite_samples = statistics[statistic_non_finite_samples];
+}
+
+RenderReport start_report(const Scene& scene, const Device& device, const DeviceScene& flat, int lanes) {
+    constexpr std::uint64_t every = (std::uint64_t{1} << feature_count) - 1;
+    RenderReport report;
+    report.scene_file = scene.file;
+    report.device = device.name;
+    report.driver = device.driver_version;
+    report.lanes = lanes;
+    report.width = scene.film.crop_width, report.height = scene.film.crop_height;
+    report.samples_per_pixel = scene.sampler.samples_per_pixel;
+    report.seed = scene.sampler.seed;
+    report.primitives = flat.primitives.size();
+    report.lights = flat.lights.size();
+    report.device_scene_bytes = flat.bytes();
+    report.features = feature_names(flat.features);
+    report.skipped_features = feature_names(every & ~flat.features);
+    return report;
+}
+
+} // namespace
+
+RenderResult render(const Scene& scene, const Device& device, const RenderOptions& options, Progress& progress) {
+    AovPlan aovs = plan_aovs(scene.integrator);
+    int lanes = options.lanes > 0 ? options.lanes : device.lanes();
+
+    progress.start("building the BVH");
+    auto start = std::chrono::steady_clock::now();
+    DeviceScene flat = make_device_scene(scene);
+    RenderResult result;
+    result.report = start_report(scene, device, flat, lanes);
+    result.report.bvh_seconds = seconds_since(start);
+    progress.finish(fmt::format("{} primitives", flat.primitives.size()));
+
+    progress.start("compiling kernels");
+    start = std::chrono::steady_clock::now();
+    std::uint64_t features = options.all_features ? flat.features | neutral_features() : flat.features;
+    Pipeline pipeline(device, lanes, options.portable, features);
+    result.report.compile_seconds = seconds_since(start);
+    result.report.stages = pipeline.stage_reports();
+    progress.finish(result.report.all_cached() ? "cached" : "compiled");
+
+    start = std::chrono::steady_clock::now();
+    int film_channels = result_field_count + aovs.channels + (scene.integrator.second_moment ? 3 : 0);
+    WorkSizes sizes = work_sizes(scene.film.crop_width, scene.film.crop_height, scene.sampler.samples_per_pixel, lanes,
+                                 film_channels, options.split);
+    RenderParams params = render_params(scene, flat, sizes, aovs);
+    pipeline.upload(flat);
+    pipeline.allocate(sizes);
+    pipeline.bind(params);
+    result.report.upload_seconds = seconds_since(start);
+
+    progress.start("rendering");
+    start = std::chrono::steady_clock::now();
+    bool next_event = flat.features & feature_bit(feature_next_event);
+    trace_image(pipeline, scene, sizes, params, next_event, options.split.work_group_size, progress);
+    result.report.render_seconds = seconds_since(start);
+    add_counts(pipeline.read_statistics(), result.report);
+    result.report.stages = pipeline.stage_reports();
+    result.report.device_pool_bytes = pipeline.pool_bytes();
+    result.report.device_film_bytes = pipeline.film_bytes();
+    progress.finish(fmt::format("{:.2f} Mpaths/s, {:.2f} Mrays/s",
+                                static_cast<double>(result.report.paths) / result.report.render_seconds / 1e6,
+                                static_cast<double>(result.report.rays()) / result.report.render_seconds / 1e6));
+    result.image = film_image(pipeline.read_film(), sizes, scene, aovs);
+    pipeline.store_programs();
+    return result;
+}
+
+} // namespace parhelion

@@ -1,0 +1,29 @@
+// Rendering a scene on a device: the wavefront loop.
+#pragma once
+
+#include "host/cl/device.h"
+#include "host/image/image.h"
+#include "host/progress.h"
+#include "host/render/device_scene.h"
+#include "host/render/pipeline.h"
+#include "host/render/report.h"
+#include "host/scene/scene.h"
+
+namespace parhelion {
+
+struct RenderOptions {
+    WorkSplit split;
+    int lanes = 0;            ///< 0: what suits the device
+    bool portable = false;    ///< kernels without x86 intrinsics
+    bool all_features = false; ///< kernels that can do everything, whatever the scene needs
+};
+
+struct RenderResult {
+    Image image;
+    RenderReport report;
+};
+
+/// Renders a scene whose film has its crop resolved. The image depends on the scene (and its seed) alone, to the bit.
+RenderResult render(const Scene& scene, const Device& device, const RenderOptions& options, Progress& progress);
+
+} // namespace parhelion

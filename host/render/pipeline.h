@@ -1,0 +1,84 @@
+// The device side of a render: context, queue, compiled stages, buffers; and launching a stage.
+#pragma once
+
+#include "host/cl/buffer.h"
+#include "host/cl/program.h"
+#include "host/render/report.h"
+#include "host/render/stages.h"
+
+#include <sys/types.h> // ulong, as the kernels call it
+
+#include <array>
+#include <vector>
+
+namespace parhelion {
+
+/// How work is split. None of these changes a bit of the image.
+struct WorkSplit {
+    int pool_paths = 1 << 16;  ///< paths in flight: the memory of a render, whatever its resolution
+    int segment_paths = 2048;  ///< paths one work-item owns; made a multiple of 16
+    int work_group_size = 1;
+};
+
+#define SCENE_BUFFER_MEMBER(type, name) Buffer<type> name;
+struct SceneBuffers {
+    SCENE_BUFFERS(SCENE_BUFFER_MEMBER)
+};
+struct WorkBuffers {
+    WORK_BUFFERS(SCENE_BUFFER_MEMBER)
+    std::size_t bytes() const;
+};
+
+/// Sizes that follow from film, samples and split.
+struct WorkSizes {
+    int samples_per_wave = 1, blocks_per_wave = 1, path_capacity = 16;
+    int segments = 1, segment_size = 16, segment_stride = 32;
+    int blocks_x = 1, blocks_y = 1;
+    int film_channels = 5;
+
+    std::size_t film_pixels() const { return std::size_t{16} * blocks_x * blocks_y; }
+    std::size_t state_stride() const { return static_cast<std::size_t>(segments) * segment_stride; }
+};
+
+WorkSizes work_sizes(int crop_width, int crop_height, int samples, int lanes, int film_channels, const WorkSplit& split);
+
+class Pipeline {
+public:
+    Pipeline(const Device& device, int lanes, bool portable, std::uint64_t features);
+
+    void upload(const DeviceScene& scene);
+    void allocate(const WorkSizes& sizes);
+    /// Binds buffers and parameters to every kernel.
+    void bind(const RenderParams& params);
+
+    void set_wave(const WaveParams& wave);
+    void launch(Stage stage, int depth, int work_items, int work_group_size);
+    /// Live paths and shadow rays of all segments after the last launch; waits for it.
+    std::pair<std::size_t, std::size_t> read_counts();
+    std::vector<float> read_film();
+    std::array<std::uint64_t, statistic_count> read_statistics();
+    /// Adds what each stage took since the last call; waits for the device.
+    void collect_times();
+    /// Keeps freshly compiled programs for the next run.
+    void store_programs() const;
+
+    const std::vector<StageReport>& stage_reports() const { return reports_; }
+    std::size_t pool_bytes() const;
+    std::size_t film_bytes() const { return work_.film.bytes(); }
+
+private:
+    void compile(const Device& device, int lanes, bool portable, std::uint64_t features);
+
+    cl::Context context_;
+    cl::CommandQueue queue_;
+    ProgramCache cache_ = ProgramCache::standard();
+    std::vector<Program> programs_;
+    std::vector<cl::Kernel> kernels_;
+    std::vector<StageReport> reports_;
+    std::vector<std::pair<std::size_t, cl::Event>> pending_;
+    SceneBuffers scene_;
+    WorkBuffers work_;
+    std::vector<int> counts_;
+};
+
+} // namespace parhelion

@@ -1,0 +1,73 @@
+// What a render did and what it cost, for people and for scripts.
+#include "host/render/report.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+
+namespace parhelion {
+namespace {
+
+nlohmann::json to_json(const StageReport& s) {
+    return {{"name", s.name},
+            {"kernel_seconds", s.kernel_seconds},
+            {"launches", s.launches},
+            {"compile_seconds", s.compile_seconds},
+            {"cached", s.cached},
+            {"features", s.features}};
+}
+
+double rate(std::uint64_t count, double seconds) { return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0; }
+
+} // namespace
+
+bool RenderReport::all_cached() const {
+    return std::all_of(stages.begin(), stages.end(), [](const StageReport& s) { return s.cached; });
+}
+
+nlohmann::json to_json(const RenderReport& r) {
+    nlohmann::json stages = nlohmann::json::array();
+    for (const StageReport& s : r.stages) stages.push_back(to_json(s));
+    return {{"scene", r.scene_file},
+            {"device", {{"name", r.device}, {"driver", r.driver}, {"lanes", r.lanes}}},
+            {"image",
+             {{"width_pixels", r.width},
+              {"height_pixels", r.height},
+              {"samples_per_pixel", r.samples_per_pixel},
+              {"seed", r.seed}}},
+            {"time",
+             {{"load_seconds", r.load_seconds},
+              {"bvh_seconds", r.bvh_seconds},
+              {"compile_seconds", r.compile_seconds},
+              {"compile_cached", r.all_cached()},
+              {"upload_seconds", r.upload_seconds},
+              {"render_seconds", r.render_seconds},
+              {"write_seconds", r.write_seconds}}},
+            {"stages", stages},
+            {"counts",
+             {{"paths", r.paths},
+              {"camera_rays", r.camera_rays},
+              {"bounce_rays", r.bounce_rays},
+              {"shadow_rays", r.shadow_rays},
+              {"non_finite_samples", r.non_finite_samples},
+              {"primitives", r.primitives},
+              {"lights", r.lights}}},
+            {"rates",
+             {{"paths_per_second", rate(r.paths, r.render_seconds)},
+              {"rays_per_second", rate(r.rays(), r.render_seconds)}}},
+            {"memory",
+             {{"device_scene_bytes", r.device_scene_bytes},
+              {"device_pool_bytes", r.device_pool_bytes},
+              {"device_film_bytes", r.device_film_bytes},
+              {"host_peak_bytes", r.host_peak_bytes}}},
+            {"features", r.features},
+            {"skipped_features", r.skipped_features}};
+}
+
+std::uint64_t peak_host_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+} // namespace parhelion

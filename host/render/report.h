@@ -1,0 +1,43 @@
+// What a render did and what it cost, for people and for scripts.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace parhelion {
+
+struct StageReport {
+    std::string name;
+    double kernel_seconds = 0.0; ///< on the device, summed over launches
+    std::uint64_t launches = 0;
+    double compile_seconds = 0.0;
+    bool cached = false;
+    std::vector<std::string> features; ///< what this stage's kernel was compiled with
+};
+
+struct RenderReport {
+    std::string scene_file, device, driver;
+    int lanes = 1, width = 0, height = 0, samples_per_pixel = 0;
+    std::uint32_t seed = 0;
+    double load_seconds = 0.0, bvh_seconds = 0.0, compile_seconds = 0.0, upload_seconds = 0.0, render_seconds = 0.0,
+           write_seconds = 0.0;
+    std::vector<StageReport> stages;
+    std::uint64_t paths = 0, camera_rays = 0, bounce_rays = 0, shadow_rays = 0, non_finite_samples = 0;
+    std::uint64_t primitives = 0, lights = 0;
+    std::uint64_t device_scene_bytes = 0, device_pool_bytes = 0, device_film_bytes = 0, host_peak_bytes = 0;
+    std::vector<std::string> features, skipped_features;
+
+    std::uint64_t rays() const { return camera_rays + bounce_rays + shadow_rays; }
+    bool all_cached() const;
+};
+
+/// One object; every key that has a unit ends in it.
+nlohmann::json to_json(const RenderReport& report);
+
+/// The most memory this process has had, bytes.
+std::uint64_t peak_host_bytes();
+
+} // namespace parhelion

@@ -1,0 +1,154 @@
+// The one place that decides which features a scene's kernels have.
+#include "host/render/scene_features.h"
+
+#include "host/render/device_scene.h"
+
+#include <algorithm>
+
+namespace parhelion {
+namespace {
+
+struct FeatureSet {
+    std::uint64_t mask = 0;
+    void add(Feature f) { mask |= feature_bit(f); }
+    void add_if(bool wanted, Feature f) {
+        if (wanted) add(f);
+    }
+};
+
+void add_roughness(MicrofacetDistribution d, double alpha_u, double alpha_v, FeatureSet& set) {
+    // GGX is always there: Beckmann is sampled by its visible normals.
+    set.add(feature_ggx);
+    set.add_if(d == MicrofacetDistribution::beckmann, feature_beckmann);
+    set.add_if(alpha_u != alpha_v, feature_anisotropy);
+}
+
+void add_bsdf(const DiffuseBsdf&, FeatureSet& set) { set.add(feature_bsdf_diffuse); }
+void add_bsdf(const ConductorBsdf&, FeatureSet& set) { set.add(feature_bsdf_conductor); }
+void add_bsdf(const DielectricBsdf&, FeatureSet& set) { set.add(feature_bsdf_dielectric); }
+void add_bsdf(const ThinDielectricBsdf&, FeatureSet& set) { set.add(feature_bsdf_thindielectric); }
+void add_bsdf(const NullBsdf&, FeatureSet& set) { set.add(feature_bsdf_null); }
+void add_bsdf(const RoughConductorBsdf& b, FeatureSet& set) {
+    set.add(feature_bsdf_roughconductor);
+    add_roughness(b.distribution, b.alpha_u, b.alpha_v, set);
+}
+void add_bsdf(const RoughDielectricBsdf& b, FeatureSet& set) {
+    set.add(feature_bsdf_roughdielectric);
+    add_roughness(b.distribution, b.alpha_u, b.alpha_v, set);
+}
+
+bool is_opaque(const Bsdf& bsdf) {
+    return std::holds_alternative<DiffuseBsdf>(bsdf) || std::holds_alternative<ConductorBsdf>(bsdf) ||
+           std::holds_alternative<RoughConductorBsdf>(bsdf);
+}
+
+void add_materials(const Scene& scene, FeatureSet& set) {
+    for (const Material& m : scene.materials) std::visit([&](const auto& b) { add_bsdf(b, set); }, m.bsdf);
+    for (const Shape& shape : scene.shapes) {
+        bool differs = shape.material_front != shape.material_back;
+        bool turned = shape.material_back >= 0 && is_opaque(scene.materials[shape.material_back].bsdf);
+        // A front of null and a black back differ too, but a one-sided opaque front absorbs below by itself.
+        bool black_back = shape.material_back < 0 && shape.material_front >= 0 &&
+                          is_opaque(scene.materials[shape.material_front].bsdf);
+        set.add_if((differs && !black_back) || turned, feature_back_materials);
+    }
+}
+
+bool reads_uv(const Scene& scene, const FeatureSet& set) {
+    auto is_uv = [](const AovRequest& a) { return a.kind == "uv"; };
+    return (set.mask & feature_bit(feature_anisotropy)) ||
+           std::any_of(scene.integrator.aovs.begin(), scene.integrator.aovs.end(), is_uv);
+}
+
+void add_shapes(const Scene& scene, bool uv, FeatureSet& set) {
+    for (const Shape& shape : scene.shapes) {
+        if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
+            set.add(feature_shape_triangle);
+            set.add_if(!mesh->normals.empty(), feature_vertex_normals);
+            set.add_if(!mesh->uvs.empty() && uv, feature_vertex_uvs);
+            set.add_if(shape.radiance.has_value(), feature_emitter_area_triangle);
+        } else if (std::holds_alternative<Sphere>(shape.geometry)) {
+            set.add(feature_shape_sphere);
+            set.add_if(shape.radiance.has_value(), feature_emitter_area_sphere);
+        } else {
+            set.add(feature_shape_disk);
+            set.add_if(shape.radiance.has_value(), feature_emitter_area_disk);
+        }
+    }
+}
+
+void add_emitter(const PointEmitter&, FeatureSet& set) { set.add(feature_emitter_point); }
+void add_emitter(const SpotEmitter&, FeatureSet& set) { set.add(feature_emitter_spot); }
+void add_emitter(const DirectionalEmitter&, FeatureSet& set) { set.add(feature_emitter_directional); }
+void add_emitter(const ConstantEmitter&, FeatureSet& set) { set.add(feature_emitter_constant); }
+
+constexpr std::uint64_t meetable_emitters = feature_bit(feature_emitter_area_triangle) |
+                                            feature_bit(feature_emitter_area_sphere) |
+                                            feature_bit(feature_emitter_area_disk) |
+                                            feature_bit(feature_emitter_constant);
+
+#define EMITTER_BIT(name) | feature_bit(feature_emitter_##name)
+constexpr std::uint64_t all_emitters = 0 EMITTERS(EMITTER_BIT);
+
+void add_transport(const Integrator& integrator, FeatureSet& set) {
+    bool lit = (set.mask & all_emitters) != 0;
+    bool meetable = (set.mask & meetable_emitters) != 0;
+    int longest = integrator.kind == IntegratorKind::direct ? 2 : integrator.max_depth;
+    bool bounces = lit && (longest < 0 || longest >= 2);
+    bool next_event = bounces && integrator.emitter_samples;
+    set.add_if(meetable && longest != 0, feature_emission);
+    set.add_if(next_event, feature_next_event);
+    // After the last scattering only emission can be met: with point lights alone nothing is.
+    bool scatters = bounces && integrator.bsdf_samples && (meetable || longest < 0 || longest >= 3);
+    set.add_if(scatters, feature_scattering);
+    set.add_if(scatters && (longest < 0 || longest > integrator.rr_depth), feature_russian_roulette);
+    set.add_if(integrator.hide_emitters, feature_hide_emitters);
+}
+
+} // namespace
+
+std::uint64_t scene_features(const Scene& scene) {
+    FeatureSet set;
+    const Integrator& integrator = scene.integrator;
+    add_materials(scene, set);
+    add_shapes(scene, reads_uv(scene, set), set);
+    for (const Emitter& e : scene.emitters) std::visit([&](const auto& x) { add_emitter(x, set); }, e);
+    set.add_if(scene.camera.aperture_radius > 0.0, feature_thin_lens);
+    set.add_if(scene.film.filter.kind != FilterKind::box, feature_reconstruction_filter);
+    set.add_if(integrator.kind == IntegratorKind::normals, feature_view_normals);
+    set.add_if(integrator.kind == IntegratorKind::depth, feature_view_depth);
+    set.add_if(integrator.second_moment, feature_moments);
+    set.add_if(!integrator.aovs.empty(), feature_aovs);
+    if (integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct)
+        add_transport(integrator, set);
+    return set.mask;
+}
+
+std::uint64_t neutral_features() {
+#define MATERIAL_BIT(name, sides) | feature_bit(feature_bsdf_##name)
+#define SHAPE_BIT(name) | feature_bit(feature_shape_##name)
+    // Not anisotropy (turns the frame), nor what decides which light is counted, nor views and film layouts. Vertex records and
+    // the sky's light row exist only where they are needed.
+    return 0 MATERIALS(MATERIAL_BIT) GEOMETRIES(SHAPE_BIT) |
+           (all_emitters & ~feature_bit(feature_emitter_constant)) | feature_bit(feature_back_materials) |
+           feature_bit(feature_ggx) | feature_bit(feature_beckmann);
+}
+
+std::vector<std::string> feature_names(std::uint64_t mask) {
+    std::vector<std::string> names;
+#define NAME_MATERIAL(name, sides)                                                                 \
+    if (mask & feature_bit(feature_bsdf_##name)) names.push_back("bsdf_" #name);
+#define NAME_EMITTER(name)                                                                         \
+    if (mask & feature_bit(feature_emitter_##name)) names.push_back("emitter_" #name);
+#define NAME_GEOMETRY(name)                                                                        \
+    if (mask & feature_bit(feature_shape_##name)) names.push_back("shape_" #name);
+#define NAME_OTHER(name)                                                                           \
+    if (mask & feature_bit(feature_##name)) names.push_back(#name);
+    MATERIALS(NAME_MATERIAL)
+    EMITTERS(NAME_EMITTER)
+    GEOMETRIES(NAME_GEOMETRY)
+    OTHER_FEATURES(NAME_OTHER)
+    return names;
+}
+
+} // namespace parhelion
