@@ -1,0 +1,47 @@
+// Rendering a scene file inside a test.
+#pragma once
+
+#include "host/commands/render.h"
+#include "host/render/path_tracer.h"
+#include "host/scene/load.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace parhelion::test {
+
+/// The device of this test process: PARHELION_DEVICE, or the default one.
+inline const Device& test_device() {
+    static const Device device = [] {
+        const char* selector = std::getenv("PARHELION_DEVICE");
+        return choose_device(selector ? selector : "");
+    }();
+    return device;
+}
+
+inline std::string source_file(const std::string& path) { return std::string(PARHELION_SOURCE_DIR) + "/" + path; }
+
+/// Loads with the command's definitions and overrides applied, as `parhelion render` does.
+inline Scene load(const RenderCommand& command) {
+    Scene scene = load_scene(command.scene_file, {parse_definitions(command.definitions), command.allow_outside});
+    apply_overrides(command, scene);
+    return scene;
+}
+
+inline RenderResult render_quietly(const Scene& scene, const RenderOptions& options = {}) {
+    Progress quiet(Progress::Mode::quiet);
+    return render(scene, test_device(), options, quiet);
+}
+
+/// Mean of channels R, G, B over all pixels.
+inline std::array<double, 3> mean_rgb(const Image& image) {
+    std::array<double, 3> mean{};
+    for (int c = 0; c < 3; c++) {
+        for (float v : find_channel(image, std::string(1, "RGB"[c]))->values) mean[c] += v;
+        mean[c] /= static_cast<double>(image.pixel_count());
+    }
+    return mean;
+}
+
+} // namespace parhelion::test
