@@ -56,7 +56,7 @@ def parhelion_render(program, case, spp, seeds, extra):
                 raise RuntimeError(
                     f"exit code {run.returncode}: {(run.stderr or run.stdout).strip()}"
                 )
-            images.append(reference.channels_of(mitsuba.Bitmap(str(out))))
+            images.append(reference.read_exr(out))
     stacks = {name: np.stack([image[name] for image in images]) for name in images[0]}
     return stacks, time.monotonic() - begin
 

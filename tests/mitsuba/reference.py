@@ -51,6 +51,15 @@ def channels_of(bitmap):
     return {field.name: data[..., i] for i, field in enumerate(bitmap.struct_())}
 
 
+def read_exr(path):
+    """An EXR file as channel name -> (H, W). With one thread, Mitsuba's reader never returns."""
+    drjit.set_thread_count(2)
+    try:
+        return channels_of(mitsuba.Bitmap(str(path)))
+    finally:
+        drjit.set_thread_count(1)
+
+
 def filter_weights(kind, x, stddev=0.5, radius=1.0, B=1 / 3, C=1 / 3, lobes=3):
     """f(x) by its definition (not by Mitsuba's table), x in pixels, any constant factor."""
     x = np.abs(x)
