@@ -109,7 +109,7 @@ Geometry read_cube(const ShapeInput& in) {
 double uniform_scale(Properties& p, const glm::dmat3& m) {
     // Wider than the rounding of rotations written with six digits, narrower than is seen.
     constexpr double tolerance = 1e-4;
-    const double scale = std::cbrt(std::abs(glm::determinant(m)));
+    const double scale = (glm::length(m[0]) + glm::length(m[1]) + glm::length(m[2])) / 3.0;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j <= i; ++j)
             if (!(std::abs(glm::dot(m[i] / scale, m[j] / scale) - (i == j ? 1.0 : 0.0)) <
@@ -163,6 +163,7 @@ ShapeParts read_shape(const Document& document, const Object& object, Notes& not
     parts.bsdf = p.only_child("bsdf");
     parts.emitter = p.only_child("emitter");
     parts.geometry = read({p, document, notes});
+    p.number("silhouette_sampling_weight", 1.0); // of Mitsuba's derivatives, no part of a picture
     p.finish();
     return parts;
 }

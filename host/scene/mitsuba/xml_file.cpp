@@ -31,7 +31,8 @@ XmlFile::XmlFile(const std::filesystem::path& path, const SourceLocation& asked_
         refuse(location_of_offset(static_cast<std::ptrdiff_t>(zero)),
                "not an XML text: it holds a zero byte");
     const pugi::xml_parse_result result = document_.load_buffer(
-        text_.data(), text_.size(), pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
+        text_.data(), text_.size(),
+        pugi::parse_default | pugi::parse_doctype | pugi::parse_trim_pcdata, pugi::encoding_utf8);
     if (!result)
         refuse(location_of_offset(result.offset),
                std::string("not well-formed XML: ") + result.description());

@@ -116,9 +116,8 @@ Document Reader::read(const std::string& file, const LoadOptions& options) {
 void Reader::read_element(const Source& source, pugi::xml_node node, std::size_t parent,
                           int nesting) {
     if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata)
-        refuse(document_.objects[parent].location, "stray text " + in_quotes(node.value()) +
-                                                       " inside <" + document_.objects[parent].tag +
-                                                       ">");
+        refuse(source.xml.location(node), "stray text " + in_quotes(node.value()) + " inside <" +
+                                              document_.objects[parent].tag + ">");
     if (node.type() != pugi::node_element) return;
     if (nesting > max_nesting)
         refuse(source.xml.location(node),

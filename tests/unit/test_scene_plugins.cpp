@@ -1,0 +1,488 @@
+// Every plugin's defaults and parameters. Defaults are those of Mitsuba 3.9.1.
+#include "test_scene_tools.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+using namespace parhelion;
+using namespace parhelion::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Scene with_bsdf(const std::string& bsdf) {
+    return load_body("<shape type=\"sphere\">" + bsdf + "</shape>");
+}
+
+template<typename T>
+T bsdf_of(const std::string& plugin, const std::string& parameters = "") {
+    const Scene scene = with_bsdf("<bsdf type=\"" + plugin + "\">" + parameters + "</bsdf>");
+    REQUIRE(scene.materials.size() == 1);
+    return std::get<T>(scene.materials[0].bsdf);
+}
+
+template<typename T>
+T emitter_of(const std::string& plugin, const std::string& parameters = "") {
+    return std::get<T>(
+        load_body("<emitter type=\"" + plugin + "\">" + parameters + "</emitter>").emitters.at(0));
+}
+
+Scene load_text(const std::string& text) {
+    const SceneFolder folder;
+    return load_scene(folder.write("scene.xml", "<scene version=\"3.0.0\">" + text + "</scene>"));
+}
+
+Scene with_sensor(const std::string& plugin, const std::string& parameters) {
+    return load_text("<sensor type=\"" + plugin + "\">" + parameters + "</sensor>");
+}
+
+Film film_of(const std::string& parameters) {
+    return with_sensor("perspective", "<film type=\"hdrfilm\">" + parameters + "</film>").film;
+}
+
+Integrator integrator_of(const std::string& plugin, const std::string& parameters = "") {
+    return load_text("<sensor type=\"perspective\"/><integrator type=\"" + plugin + "\">" +
+                     parameters + "</integrator>")
+        .integrator;
+}
+
+} // namespace
+
+TEST_CASE("scene plugins: bsdf defaults") {
+    CHECK(bsdf_of<DiffuseBsdf>("diffuse").reflectance == Rgb(0.5));
+    const auto conductor = bsdf_of<ConductorBsdf>("conductor");
+    CHECK(conductor.eta == Rgb(0.0));
+    CHECK(conductor.k == Rgb(1.0));
+    CHECK(conductor.specular_reflectance == Rgb(1.0));
+    const auto dielectric = bsdf_of<DielectricBsdf>("dielectric");
+    CHECK(dielectric.eta == 1.5046 / 1.000277);
+    CHECK(dielectric.specular_transmittance == Rgb(1.0));
+    CHECK(bsdf_of<ThinDielectricBsdf>("thindielectric").eta == 1.5046 / 1.000277);
+    const auto rough = bsdf_of<RoughConductorBsdf>("roughconductor");
+    CHECK(rough.distribution == MicrofacetDistribution::beckmann);
+    CHECK(rough.alpha_u == 0.1);
+    CHECK(rough.alpha_v == 0.1);
+    CHECK(rough.k == Rgb(1.0));
+    const auto frosted = bsdf_of<RoughDielectricBsdf>("roughdielectric");
+    CHECK(frosted.distribution == MicrofacetDistribution::beckmann);
+    CHECK(frosted.alpha_u == 0.1);
+    CHECK(frosted.eta == 1.5046 / 1.000277);
+    bsdf_of<NullBsdf>("null");
+}
+
+TEST_CASE("scene plugins: bsdf parameters") {
+    const auto glass = bsdf_of<DielectricBsdf>(
+        "dielectric", "<string name=\"int_ior\" value=\"Diamond\"/>"
+                      "<float name=\"ext_ior\" value=\"1.25\"/>"
+                      "<rgb name=\"specular_reflectance\" value=\"0.5\"/>"
+                      "<rgb name=\"specular_transmittance\" value=\"0.25 0.5 0.75\"/>");
+    CHECK(glass.eta == 2.419 / 1.25);
+    CHECK(glass.specular_reflectance == Rgb(0.5));
+    CHECK(glass.specular_transmittance == Rgb(0.25, 0.5, 0.75));
+    const auto gold =
+        bsdf_of<ConductorBsdf>("conductor", "<string name=\"material\" value=\"Au\"/>");
+    CHECK(gold.eta.x == Approx(0.143035978));
+    CHECK(gold.k.z == Approx(1.60335922));
+    CHECK(bsdf_of<ConductorBsdf>("conductor", "<string name=\"material\" value=\"none\"/>").k ==
+          Rgb(1.0));
+    const auto metal = bsdf_of<RoughConductorBsdf>(
+        "roughconductor", "<string name=\"distribution\" value=\"ggx\"/>"
+                          "<float name=\"alpha_u\" value=\"0.2\"/>"
+                          "<float name=\"alpha_v\" value=\"0.3\"/>"
+                          "<rgb name=\"eta\" value=\"1.5 2 3\"/><float name=\"k\" value=\"2\"/>"
+                          "<boolean name=\"sample_visible\" value=\"false\"/>");
+    CHECK(metal.distribution == MicrofacetDistribution::ggx);
+    CHECK(metal.alpha_u == 0.2);
+    CHECK(metal.alpha_v == 0.3);
+    CHECK(metal.eta == Rgb(1.5, 2, 3));
+    CHECK(metal.k == Rgb(2));
+}
+
+TEST_CASE("scene plugins: the two sides of a surface") {
+    const auto sides = [](const std::string& bsdf) {
+        const Scene scene = with_bsdf(bsdf);
+        return std::pair(scene.shapes[0].material_front, scene.shapes[0].material_back);
+    };
+    CHECK(sides("<bsdf type=\"diffuse\"/>") == std::pair(0, no_material));
+    CHECK(sides("<bsdf type=\"roughconductor\"/>") == std::pair(0, no_material));
+    CHECK(sides("<bsdf type=\"dielectric\"/>") == std::pair(0, 0));
+    CHECK(sides("<bsdf type=\"thindielectric\"/>") == std::pair(0, 0));
+    CHECK(sides("<bsdf type=\"null\"/>") == std::pair(0, 0));
+    const std::string one = "<bsdf type=\"diffuse\"/>", other = "<bsdf type=\"conductor\"/>";
+    CHECK(sides("<bsdf type=\"twosided\">" + one + "</bsdf>") == std::pair(0, 0));
+    CHECK(sides("<bsdf type=\"twosided\">" + one + other + "</bsdf>") == std::pair(0, 1));
+    CHECK(sides("<bsdf type=\"twosided\"><bsdf type=\"twosided\">" + one + "</bsdf></bsdf>") ==
+          std::pair(0, 0));
+    const Scene named = with_bsdf("<bsdf type=\"twosided\" id=\"wall\">" + one + "</bsdf>");
+    CHECK(named.materials[0].id == "wall");
+}
+
+TEST_CASE("scene plugins: a shape without bsdf is grey, or black where it emits") {
+    const Scene scene = load_body("<shape type=\"sphere\"/><shape type=\"disk\"/>"
+                                  "<shape type=\"disk\"><emitter type=\"area\"/></shape>");
+    REQUIRE(scene.materials.size() == 2);
+    const auto grey = scene.materials[scene.shapes[0].material_front];
+    CHECK(std::get<DiffuseBsdf>(grey.bsdf).reflectance == Rgb(0.5));
+    CHECK(scene.shapes[1].material_front == scene.shapes[0].material_front);
+    CHECK(scene.shapes[1].material_back == no_material);
+    const auto black = scene.materials[scene.shapes[2].material_front];
+    CHECK(std::get<DiffuseBsdf>(black.bsdf).reflectance == Rgb(0.0));
+    CHECK(scene.shapes[2].radiance == Rgb(1.0));
+}
+
+TEST_CASE("scene plugins: emitters") {
+    CHECK(emitter_of<PointEmitter>("point").position == glm::dvec3(0.0));
+    CHECK(emitter_of<PointEmitter>("point").intensity == Rgb(1.0));
+    CHECK(
+        emitter_of<PointEmitter>("point", "<point name=\"position\" value=\"1 2 3\"/>").position ==
+        glm::dvec3(1, 2, 3));
+    CHECK(emitter_of<PointEmitter>("point", "<transform name=\"to_world\"><translate x=\"2\"/>"
+                                            "<scale value=\"2\"/></transform>")
+              .position == glm::dvec3(4, 0, 0));
+    const auto spot = emitter_of<SpotEmitter>("spot");
+    CHECK(spot.direction == glm::dvec3(0, 0, 1));
+    CHECK(spot.cutoff_angle == Approx(glm::radians(20.0)));
+    CHECK(spot.beam_width == Approx(glm::radians(15.0)));
+    const auto turned = emitter_of<SpotEmitter>(
+        "spot",
+        "<float name=\"cutoff_angle\" value=\"40\"/><transform name=\"to_world\"><scale "
+        "value=\"3\"/><lookat origin=\"0 0 0\" target=\"0 1 1\" up=\"0 1 0\"/></transform>");
+    CHECK(glm::length(turned.direction - glm::dvec3(0, std::sqrt(.5), std::sqrt(.5))) < 1e-15);
+    CHECK(turned.beam_width == Approx(glm::radians(30.0)));
+    CHECK(emitter_of<DirectionalEmitter>("directional").direction == glm::dvec3(0, 0, 1));
+    CHECK(emitter_of<DirectionalEmitter>("directional",
+                                         "<vector name=\"direction\" value=\"0 0 -2\"/>")
+              .direction == glm::dvec3(0, 0, -1));
+    CHECK(emitter_of<DirectionalEmitter>("directional",
+                                         "<transform name=\"to_world\"><rotate x=\"1\""
+                                         " angle=\"90\"/></transform>")
+              .direction == glm::dvec3(0, -1, 0));
+    CHECK(emitter_of<ConstantEmitter>("constant").radiance == Rgb(1.0));
+    CHECK(
+        load_body("<emitter type=\"area\" id=\"l\"><float name=\"radiance\" value=\"3\"/></emitter>"
+                  "<shape type=\"disk\"><ref id=\"l\"/></shape>")
+            .shapes[0]
+            .radiance == Rgb(3.0));
+    const Scene weighed = load_body("<emitter type=\"point\">\n<float name=\"sampling_weight\" "
+                                    "value=\"2\"/></emitter>");
+    REQUIRE(weighed.notes.size() == 1);
+    CHECK_THAT(weighed.notes[0], Contains("scene.xml:3") && Contains("sampling_weight"));
+}
+
+TEST_CASE("scene plugins: sensors") {
+    const Scene plain = with_sensor("perspective", "");
+    CHECK(plain.camera.focal_length_mm == 50.0);
+    CHECK(!plain.camera.fov_degrees);
+    CHECK(plain.camera.near_clip == 1e-2);
+    CHECK(plain.camera.far_clip == 1e4);
+    CHECK(plain.camera.aperture_radius == 0.0);
+    CHECK(plain.film.width == 768);
+    CHECK(plain.film.height == 576);
+    CHECK(plain.film.pixel_format == PixelFormat::rgb);
+    CHECK(plain.film.component_format == ComponentFormat::float16);
+    CHECK(plain.film.filter.kind == FilterKind::gaussian);
+    CHECK(plain.film.filter.stddev == 0.5);
+    CHECK(plain.sampler.samples_per_pixel == 4);
+    CHECK(plain.integrator.kind == IntegratorKind::path);
+    const Camera camera =
+        with_sensor("perspective", "<float name=\"fov\" value=\"30\"/>"
+                                   "<string name=\"fov_axis\" value=\"diagonal\"/>"
+                                   "<float name=\"principal_point_offset_x\" value=\"0.1\"/>"
+                                   "<float name=\"principal_point_offset_y\" value=\"-0.2\"/>"
+                                   "<float name=\"near_clip\" value=\"1\"/>"
+                                   "<float name=\"far_clip\" value=\"9\"/>")
+            .camera;
+    CHECK(camera.fov_degrees == 30.0);
+    CHECK(!camera.focal_length_mm);
+    CHECK(camera.fov_axis == FovAxis::diagonal);
+    CHECK(camera.principal_point_offset == glm::dvec2(0.1, -0.2));
+    CHECK(camera.near_clip == 1.0);
+    CHECK(camera.far_clip == 9.0);
+    CHECK(with_sensor("perspective", "<string name=\"focal_length\" value=\"35mm\"/>")
+              .camera.focal_length_mm == 35.0);
+    CHECK(with_sensor("perspective", "<string name=\"focal_length\" value=\"28.5\"/>")
+              .camera.focal_length_mm == 28.5);
+    const Camera lens = with_sensor("thinlens", "<float name=\"aperture_radius\" value=\"0.2\"/>"
+                                                "<float name=\"focus_distance\" value=\"3\"/>")
+                            .camera;
+    CHECK(lens.aperture_radius == 0.2);
+    CHECK(lens.focus_distance == 3.0);
+    CHECK(with_sensor("thinlens", "<float name=\"aperture_radius\" value=\"0.2\"/>")
+              .camera.focus_distance == 1e4);
+}
+
+TEST_CASE("scene plugins: film and filters") {
+    const Film film = film_of("<integer name=\"width\" value=\"64\"/>"
+                              "<integer name=\"height\" value=\"32\"/>"
+                              "<integer name=\"crop_offset_x\" value=\"10\"/>"
+                              "<integer name=\"crop_width\" value=\"20\"/>"
+                              "<string name=\"pixel_format\" value=\"XYZA\"/>"
+                              "<string name=\"component_format\" value=\"float32\"/>"
+                              "<string name=\"file_format\" value=\"openexr\"/>"
+                              "<boolean name=\"banner\" value=\"false\"/>"
+                              "<boolean name=\"high_quality_edges\" value=\"true\"/>"
+                              "<boolean name=\"sample_border\" value=\"true\"/>"
+                              "<rfilter type=\"box\"/>");
+    CHECK(film.crop_x == 10);
+    CHECK(film.crop_y == 0);
+    CHECK(film.crop_width == 20);
+    CHECK(film.crop_height == 32);
+    CHECK(film.pixel_format == PixelFormat::xyza);
+    CHECK(film.component_format == ComponentFormat::float32);
+    CHECK(film.filter.kind == FilterKind::box);
+    CHECK(film_of("").crop_width == 0);
+    const auto filter = [](const std::string& plugin, const std::string& parameters = "") {
+        return film_of("<rfilter type=\"" + plugin + "\">" + parameters + "</rfilter>").filter;
+    };
+    CHECK(filter("tent").radius == 1.0);
+    CHECK(filter("tent", "<float name=\"radius\" value=\"2\"/>").radius == 2.0);
+    CHECK(filter("gaussian", "<float name=\"stddev\" value=\"0.7\"/>").stddev == 0.7);
+    CHECK(filter("mitchell").mitchell_a == 1.0 / 3.0);
+    CHECK(filter("mitchell", "<float name=\"B\" value=\"0.1\"/>").mitchell_a == 0.1);
+    CHECK(filter("mitchell", "<float name=\"C\" value=\"0.2\"/>").mitchell_b == 0.2);
+    CHECK(filter("catmullrom").kind == FilterKind::catmullrom);
+    CHECK(filter("lanczos").lanczos_lobes == 3);
+    CHECK(filter("lanczos", "<integer name=\"lobes\" value=\"2\"/>").lanczos_lobes == 2);
+}
+
+TEST_CASE("scene plugins: integrators") {
+    const Integrator path = integrator_of("path");
+    CHECK(path.max_depth == -1);
+    CHECK(path.rr_depth == 5);
+    CHECK_FALSE(path.hide_emitters);
+    const Integrator set =
+        integrator_of("path", "<integer name=\"max_depth\" value=\"0\"/>"
+                              "<integer name=\"rr_depth\" value=\"9\"/>"
+                              "<boolean name=\"hide_emitters\" value=\"true\"/>");
+    CHECK(set.max_depth == 0);
+    CHECK(set.rr_depth == 9);
+    CHECK(set.hide_emitters);
+    CHECK(integrator_of("depth").kind == IntegratorKind::depth);
+    CHECK(integrator_of("normals").kind == IntegratorKind::normals);
+    const Integrator direct =
+        integrator_of("direct", "<integer name=\"emitter_samples\" value=\"0\"/>");
+    CHECK(direct.kind == IntegratorKind::direct);
+    CHECK_FALSE(direct.emitter_samples);
+    CHECK(direct.bsdf_samples);
+    const Integrator moment = integrator_of("moment", "<integrator type=\"direct\"/>");
+    CHECK(moment.kind == IntegratorKind::direct);
+    CHECK(moment.second_moment);
+    const Integrator aov = integrator_of("aov", "<string name=\"aovs\" value=\"dd.y:depth, "
+                                                "nn:sh_normal\"/><integrator type=\"path\"/>");
+    CHECK(aov.kind == IntegratorKind::path);
+    REQUIRE(aov.aovs.size() == 2);
+    CHECK(aov.aovs[0].name == "dd.y");
+    CHECK(aov.aovs[1].kind == "sh_normal");
+    CHECK(integrator_of("aov", "<string name=\"aovs\" value=\"a:uv\"/>").kind ==
+          IntegratorKind::aov);
+}
+
+TEST_CASE("scene plugins: samplers are all mapped to ours, and said to be") {
+    for (const char* const plugin :
+         {"independent", "stratified", "multijitter", "orthogonal", "ldsampler"}) {
+        const Scene scene =
+            load_text("<integrator type=\"path\"/><sensor type=\"perspective\"><sampler type=\"" +
+                      std::string(plugin) +
+                      "\"><integer name=\"sample_count\" value=\"17\"/>"
+                      "<integer name=\"seed\" value=\"4294967295\"/></sampler></sensor>");
+        CHECK(scene.sampler.plugin == plugin);
+        CHECK(scene.sampler.samples_per_pixel == 17);
+        CHECK(scene.sampler.seed == 4294967295u);
+        CHECK(scene.notes.size() == (scene.sampler.plugin == "independent" ? 0 : 1));
+    }
+}
+
+TEST_CASE("scene plugins: an unknown plugin is named with what is accepted") {
+    const std::pair<std::string, std::string> cases[] = {
+        {"<shape type=\"torus\"/>", "sphere"},         {"<emitter type=\"envmap\"/>", "constant"},
+        {"<bsdf type=\"roughplastic\"/>", "twosided"}, {"<sampler type=\"halton\"/>", "stratified"},
+        {"<film type=\"ldrfilm\"/>", "hdrfilm"},       {"<rfilter type=\"sinc\"/>", "lanczos"},
+        {"<medium type=\"homogeneous\"/>", "shape"},   {"<phase type=\"hg\"/>", "shape"},
+        {"<volume type=\"gridvolume\"/>", "shape"},    {"<spectrum type=\"blackbody\"/>", "shape"},
+    };
+    for (const auto& [element, accepted] : cases) {
+        const std::size_t start = element.find('"');
+        const std::string plugin = element.substr(start, element.rfind('"') - start + 1);
+        CHECK_THAT(refusal_of_body(element), Contains("scene.xml:2") && Contains(plugin) &&
+                                                 Contains("not supported") && Contains(accepted));
+    }
+    CHECK_THAT(refusal_of_text("<scene version=\"3.0.0\"><sensor type=\"orthographic\"/></scene>"),
+               Contains("orthographic") && Contains("thinlens"));
+    CHECK_THAT(refusal_of_text("<scene version=\"3.0.0\"><integrator type=\"volpath\"/></scene>"),
+               Contains("volpath") && Contains("direct"));
+}
+
+TEST_CASE("scene plugins: every plugin refuses a parameter it does not have") {
+    const std::string extra = "\n<float name=\"nonsense\" value=\"1\"/>\n";
+    std::vector<std::string> bodies;
+    for (const char* const b : {"diffuse", "conductor", "dielectric", "thindielectric",
+                                "roughconductor", "roughdielectric", "null"})
+        bodies.push_back("<bsdf type=\"" + std::string(b) + "\">" + extra + "</bsdf>");
+    bodies.push_back("<bsdf type=\"twosided\">" + extra + "<bsdf type=\"diffuse\"/></bsdf>");
+    for (const char* const s : {"sphere", "disk", "rectangle", "cube"})
+        bodies.push_back("<shape type=\"" + std::string(s) + "\">" + extra + "</shape>");
+    for (const char* const e : {"point", "spot", "directional", "constant"})
+        bodies.push_back("<emitter type=\"" + std::string(e) + "\">" + extra + "</emitter>");
+    bodies.push_back("<emitter type=\"area\" id=\"a\">" + extra + "</emitter>");
+    bodies.push_back("<film type=\"hdrfilm\">" + extra + "</film>");
+    for (const char* const f : {"box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos"})
+        bodies.push_back("<rfilter type=\"" + std::string(f) + "\">" + extra + "</rfilter>");
+    for (const char* const s :
+         {"independent", "stratified", "multijitter", "orthogonal", "ldsampler"})
+        bodies.push_back("<sampler type=\"" + std::string(s) + "\">" + extra + "</sampler>");
+    for (const std::string& body : bodies) {
+        INFO(body);
+        CHECK_THAT(refusal_of_body(body),
+                   Contains("scene.xml:3") && Contains("has no parameter \"nonsense\""));
+    }
+    for (const char* const i : {"path", "direct", "depth", "normals"})
+        CHECK_THAT(refusal_of_text("<scene version=\"3.0.0\"><sensor type=\"perspective\"/>\n"
+                                   "<integrator type=\"" +
+                                   std::string(i) + "\">" + extra + "</integrator></scene>"),
+                   Contains("scene.xml:3") && Contains("\"nonsense\""));
+    for (const char* const s : {"perspective", "thinlens"})
+        CHECK_THAT(refusal_of_text(
+                       "<scene version=\"3.0.0\">\n<sensor type=\"" + std::string(s) + "\">" +
+                       extra + "<float name=\"aperture_radius\" value=\"1\"/></sensor></scene>"),
+                   Contains("scene.xml:3") && Contains("\"nonsense\""));
+}
+
+TEST_CASE("scene plugins: values out of range are refused with their line") {
+    struct Case {
+        std::string body, part;
+    };
+    const auto bsdf = [](const std::string& plugin, const std::string& parameters) {
+        return "<bsdf type=\"" + plugin + "\">\n" + parameters + "</bsdf>";
+    };
+    const auto emitter = [](const std::string& plugin, const std::string& parameters) {
+        return "<emitter type=\"" + plugin + "\">\n" + parameters + "</emitter>";
+    };
+    const auto film = [](const std::string& parameters) {
+        return "<film type=\"hdrfilm\">\n" + parameters + "</film>";
+    };
+    const auto shape = [](const std::string& plugin, const std::string& parameters) {
+        return "<shape type=\"" + plugin + "\">\n" + parameters + "</shape>";
+    };
+    const auto sampler = [](const std::string& parameters) {
+        return "<sampler type=\"independent\">\n" + parameters + "</sampler>";
+    };
+    const std::string position = "<point name=\"position\" value=\"0 0 0\"/>";
+    const std::string moved = "<transform name=\"to_world\"><translate x=\"1\"/></transform>";
+    const Case cases[] = {
+        {bsdf("dielectric", "<float name=\"int_ior\" value=\"0\"/>"), "greater than 0"},
+        {bsdf("dielectric", "<string name=\"int_ior\" value=\"jelly\"/>"), "bk7"},
+        {bsdf("roughdielectric", "<float name=\"int_ior\" value=\"1.000277\"/>"), "two different"},
+        {bsdf("roughconductor", "<float name=\"alpha\" value=\"0\"/>"), "\"alpha\" is 0"},
+        {bsdf("roughconductor", "<float name=\"alpha\" value=\".1\"/><float name=\"alpha_u\" "
+                                "value=\".1\"/><float name=\"alpha_v\" value=\".1\"/>"),
+         "together"},
+        {bsdf("roughconductor", "<string name=\"distribution\" value=\"phong\"/>"),
+         "beckmann, ggx"},
+        {bsdf("conductor", "<string name=\"material\" value=\"Unobtainium\"/>"), "Au"},
+        {bsdf("conductor", "<string name=\"material\" value=\"Au\"/><float name=\"k\" "
+                           "value=\"1\"/>"),
+         "together"},
+        {bsdf("conductor", "<rgb name=\"eta\" value=\"-1 0 0\"/>"), "\"eta\" is -1"},
+        {bsdf("twosided", "<bsdf type=\"dielectric\"/>"), "\"dielectric\""},
+        {bsdf("twosided", "<bsdf type=\"null\"/>"), "\"null\""},
+        {emitter("point", position + moved), "together"},
+        {emitter("point", "<float name=\"sampling_weight\" value=\"0\"/>"), "greater than 0"},
+        {emitter("spot", "<float name=\"cutoff_angle\" value=\"0\"/>"), "less than 180"},
+        {emitter("spot", "<float name=\"beam_width\" value=\"30\"/>"), "cutoff_angle"},
+        {emitter("spot", "<texture name=\"texture\" type=\"bitmap\"/>"), "\"bitmap\""},
+        {emitter("spot", "<transform name=\"to_world\"><scale x=\"2\"/></transform>"), "uniform"},
+        {emitter("directional", "<vector name=\"direction\" value=\"0 0 0\"/>"), "not zero"},
+        {film("<integer name=\"width\" value=\"0\"/>"), "1 to 65536"},
+        {film("<integer name=\"width\" value=\"-5\"/>"), "1 to 65536"},
+        {film("<integer name=\"height\" value=\"100000\"/>"), "1 to 65536"},
+        {film("<integer name=\"width\" value=\"65536\"/><integer name=\"height\" "
+              "value=\"65536\"/>"),
+         "pixels in all"},
+        {film("<float name=\"width\" value=\"10\"/>"), "<integer>"},
+        {film("<string name=\"pixel_format\" value=\"cmyk\"/>"), "luminance_alpha"},
+        {film("<string name=\"component_format\" value=\"float64\"/>"), "float32"},
+        {film("<string name=\"file_format\" value=\"pfm\"/>"), "openexr"},
+        {film("<rfilter type=\"gaussian\"><float name=\"stddev\" value=\"0\"/></rfilter>"),
+         "greater than 0"},
+        {film("<rfilter type=\"lanczos\"><integer name=\"lobes\" value=\"0\"/></rfilter>"),
+         "1 to 16"},
+        {film("<rfilter type=\"mitchell\"><float name=\"A\" value=\"0\"/></rfilter>"), "B, C"},
+        {film("<rfilter type=\"box\"/><rfilter type=\"box\"/>"), "more than one"},
+        {sampler("<integer name=\"sample_count\" value=\"0\"/>"), "1 to 2147483647"},
+        {sampler("<integer name=\"sample_count\" value=\"9999999999\"/>"), "1 to 2147483647"},
+        {sampler("<integer name=\"seed\" value=\"-1\"/>"), "0 to 4294967295"},
+        {shape("sphere", "<transform name=\"to_world\"><scale x=\"2\"/></transform>"), "ellipsoid"},
+        {shape("sphere", "<boolean name=\"face_normals\" value=\"true\"/>"), "face_normals"},
+        {shape("sphere", "<bsdf type=\"null\"/><bsdf type=\"null\"/>"), "more than one <bsdf>"},
+        {shape("sphere", "<emitter type=\"point\"/>"), "\"point\""},
+        {shape("sphere", "<sensor type=\"perspective\"/>"), "sensor"},
+        {shape("sphere", "<medium type=\"homogeneous\" name=\"interior\"/>"), "homogeneous"},
+        {shape("disk", "<transform name=\"to_world\"><scale z=\"0\"/></transform>"), "inverse"},
+        {shape("obj", "<integer name=\"filename\" value=\"1\"/>"), "<string>"},
+    };
+    for (const Case& c : cases) {
+        INFO(c.body);
+        CHECK_THAT(refusal_of_body(c.body), Contains("scene.xml:3") && Contains(c.part));
+    }
+    CHECK_THAT(refusal_of_body("\n<emitter type=\"area\"/>"),
+               Contains("scene.xml:3") && Contains("inside a <shape>"));
+    CHECK_THAT(refusal_of_body("\n<bsdf type=\"twosided\"/>"),
+               Contains("scene.xml:3") && Contains("1 or 2"));
+    CHECK_THAT(refusal_of_body("\n<shape type=\"ply\"/>"),
+               Contains("scene.xml:3") && Contains("lacks its parameter \"filename\""));
+}
+
+TEST_CASE("scene plugins: sensors and integrators out of range") {
+    struct Case {
+        std::string text, part;
+    };
+    const auto sensor = [](const std::string& parameters) {
+        return "<scene version=\"3.0.0\">\n<sensor type=\"perspective\">\n" + parameters +
+               "</sensor></scene>";
+    };
+    const auto integrator = [](const std::string& plugin, const std::string& parameters) {
+        return "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>\n<integrator type=\"" +
+               plugin + "\">\n" + parameters + "</integrator></scene>";
+    };
+    const Case cases[] = {
+        {sensor("<float name=\"fov\" value=\"180\"/>"), "less than 180"},
+        {sensor("<float name=\"fov\" value=\"0\"/>"), "greater than 0"},
+        {sensor("<string name=\"fov_axis\" value=\"x\"/>"), "fov_axis"},
+        {sensor("<string name=\"fov_axis\" value=\"z\"/><float name=\"fov\" value=\"9\"/>"),
+         "smaller"},
+        {sensor("<string name=\"focal_length\" value=\"9\"/><float name=\"fov\" value=\"9\"/>"),
+         "together"},
+        {sensor("<string name=\"focal_length\" value=\"long\"/>"), "50mm"},
+        {sensor("<string name=\"focal_length\" value=\"-3mm\"/>"), "50mm"},
+        {sensor("<float name=\"near_clip\" value=\"0\"/>"), "greater than 0"},
+        {sensor("<float name=\"near_clip\" value=\"5\"/><float name=\"far_clip\" value=\"5\"/>"),
+         "far_clip"},
+        {sensor("<float name=\"aperture_radius\" value=\"1\"/>"), "aperture_radius"},
+        {sensor("<float name=\"shutter_close\" value=\"-1\"/>"), "shutter_open"},
+        {sensor("<transform name=\"to_world\"><scale value=\"2\"/></transform>"), "scale"},
+        {sensor("<transform name=\"to_world\"><matrix value=\"1 .1 0 0 1 0 0 0 1\"/></transform>"),
+         "shear"},
+        {sensor("<sampler type=\"independent\"/><sampler type=\"independent\"/>"), "more than one"},
+        {integrator("path", "<integer name=\"max_depth\" value=\"-2\"/>"), "-1 to"},
+        {integrator("path", "<integer name=\"rr_depth\" value=\"0\"/>"), "1 to"},
+        {integrator("path", "<float name=\"timeout\" value=\"3\"/>"), "timeout"},
+        {integrator("direct", "<integer name=\"max_depth\" value=\"2\"/>"), "max_depth"},
+        {integrator("direct", "<integer name=\"bsdf_samples\" value=\"0\"/><integer "
+                              "name=\"emitter_samples\" value=\"0\"/>"),
+         "above 0"},
+        {integrator("direct", "<integer name=\"shading_samples\" value=\"2\"/><integer "
+                              "name=\"emitter_samples\" value=\"1\"/>"),
+         "together"},
+        {integrator("aov", "<string name=\"aovs\" value=\"depth\"/>"), "name:kind"},
+        {integrator("aov", "<string name=\"aovs\" value=\"a:depth,a:uv\"/>"), "twice"},
+        {integrator("aov", "<string name=\"aovs\" value=\"\"/>"), "empty"},
+    };
+    for (const Case& c : cases) {
+        INFO(c.text);
+        CHECK_THAT(refusal_of_text(c.text), Contains("scene.xml:3") && Contains(c.part));
+    }
+    CHECK_THAT(refusal_of_text(integrator("moment", "")),
+               Contains("scene.xml:2") && Contains("holds 0"));
+    CHECK_THAT(refusal_of_text(integrator("aov", "")),
+               Contains("scene.xml:2") && Contains("\"aovs\""));
+}
