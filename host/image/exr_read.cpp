@@ -2,6 +2,7 @@
 // trusted.
 #include "host/error.h"
 #include "host/image/exr.h"
+#include "host/image/exr_source.h"
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
@@ -15,14 +16,9 @@
 #include <ImfRgbaFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfTileDescription.h>
-#include <ImfVersion.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <new>
 #include <tuple>
 #include <utility>
@@ -37,29 +33,6 @@ constexpr std::int64_t largest_tile = 1 << 26;    ///< values in all channels of
 constexpr std::int64_t most_deflate_gain = 1032;  ///< no deflate stream grows by more
 constexpr int band_rows = 256;                    ///< the most rows any compression puts in a chunk
 constexpr float first_inexact_uint = 16777216.0f; ///< 2^24
-
-struct Source {
-    std::string file;
-    std::int64_t bytes = 0;
-
-    [[noreturn]] void refuse(const std::string& what) const {
-        throw InputError(file + ": " + what);
-    }
-};
-
-Source open_source(const std::string& file) {
-    std::error_code error;
-    const auto status = std::filesystem::status(file, error);
-    if (!std::filesystem::exists(status)) throw InputError(file + ": no such file");
-    if (!std::filesystem::is_regular_file(status)) throw InputError(file + ": not a regular file");
-    const Source source{file, static_cast<std::int64_t>(std::filesystem::file_size(file))};
-    std::array<char, 4> magic{};
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) source.refuse(std::string("cannot open: ") + std::strerror(errno));
-    stream.read(magic.data(), magic.size());
-    if (!stream || !Imf::isImfMagic(magic.data())) source.refuse("not an OpenEXR file");
-    return source;
-}
 
 std::int64_t channel_count(const Imf::Header& header) {
     std::int64_t count = 0;
@@ -78,7 +51,7 @@ std::pair<std::int64_t, std::int64_t> box_size(const Imath::Box2i& box) {
 }
 
 /// Refuses windows and tiles that are empty or too large before anything is allocated for them.
-void check_size(const Source& source, const Imf::Header& header) {
+void check_size(const ExrSource& source, const Imf::Header& header) {
     const std::int64_t channels = channel_count(header);
     if (channels == 0) source.refuse("has no channels");
     for (const Imath::Box2i& box : {header.dataWindow(), header.displayWindow()}) {
@@ -107,7 +80,7 @@ bool is_luminance_chroma(const Imf::Header& header) {
     return channels.findChannel("Y") && channels.findChannel("RY") && channels.findChannel("BY");
 }
 
-void check_part(const Source& source, const Imf::MultiPartInputFile& input, int part) {
+void check_part(const ExrSource& source, const Imf::MultiPartInputFile& input, int part) {
     const Imf::Header& header = input.header(part);
     const std::string where = input.parts() > 1 ? "part " + std::to_string(part) + ": " : "";
     if (header.hasType() && Imf::isDeepData(header.type()))
@@ -164,7 +137,7 @@ void read_metadata(const Imf::Header& header, Image& image) {
 }
 
 /// Reads one part's channels band by band: memory grows with what the file really holds.
-void read_part(const Source& source, Imf::MultiPartInputFile& input, int index,
+void read_part(const ExrSource& source, Imf::MultiPartInputFile& input, int index,
                const std::string& prefix, Image& image) {
     Imf::InputPart part(input, index);
     const Imf::ChannelList& list = part.header().channels();
@@ -203,7 +176,7 @@ void read_part(const Source& source, Imf::MultiPartInputFile& input, int index,
 }
 
 /// The library's own conversion from Y RY BY to R G B (A).
-void read_luminance_chroma(const Source& source, bool has_alpha, Image& image) {
+void read_luminance_chroma(const ExrSource& source, bool has_alpha, Image& image) {
     Imf::RgbaInputFile input(source.file.c_str());
     const Imath::Box2i window = input.dataWindow();
     const std::array<const char*, 4> names{"R", "G", "B", "A"};
@@ -223,7 +196,7 @@ void read_luminance_chroma(const Source& source, bool has_alpha, Image& image) {
     }
 }
 
-Image read_checked(const Source& source) {
+Image read_checked(const ExrSource& source) {
     // A table of chunks that is broken is an error, not something to rebuild by guessing.
     Imf::MultiPartInputFile input(source.file.c_str(), 0, false);
     for (int part = 0; part < input.parts(); ++part)
@@ -244,8 +217,9 @@ Image read_checked(const Source& source) {
 } // namespace
 
 Image read_exr(const std::string& file) {
-    const Source source = open_source(file);
+    const ExrSource source = open_exr(file);
     try {
+        check_attribute_sizes(source);
         return read_checked(source);
     } catch (const InputError&) {
         throw;

@@ -1,0 +1,82 @@
+// Checks of an EXR file before the library reads it.
+#include "host/image/exr_source.h"
+
+#include "host/error.h"
+
+#include <ImfIO.h>
+#include <ImfStdIO.h>
+#include <ImfVersion.h>
+#include <ImfXdr.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace parhelion {
+
+namespace {
+
+using Name = std::array<char, 256>; ///< the longest name the format has, with its end
+
+template<class T>
+T read_number(Imf::IStream& stream) {
+    T value{};
+    Imf::Xdr::read<Imf::StreamIO>(stream, value);
+    return value;
+}
+
+Name read_name(Imf::IStream& stream) {
+    Name name{};
+    Imf::Xdr::read<Imf::StreamIO>(stream, static_cast<int>(name.size()), name.data());
+    return name;
+}
+
+/// Steps over one header (name, type, size and value of each attribute up to an empty name);
+/// returns how many attributes it has.
+int skip_header(const ExrSource& source, Imf::IStream& stream) {
+    int attributes = 0;
+    while (read_name(stream)[0] != '\0') {
+        read_name(stream); // the type
+        const std::int64_t size = read_number<int>(stream);
+        const std::int64_t left = source.bytes - static_cast<std::int64_t>(stream.tellg());
+        if (size < 0 || size > left)
+            source.refuse("a header attribute claims " + std::to_string(size) + " bytes where " +
+                          std::to_string(left) + " are left");
+        stream.seekg(stream.tellg() + static_cast<std::uint64_t>(size));
+        ++attributes;
+    }
+    return attributes;
+}
+
+} // namespace
+
+void ExrSource::refuse(const std::string& what) const { throw InputError(file + ": " + what); }
+
+ExrSource open_exr(const std::string& file) {
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    if (!std::filesystem::exists(status)) throw InputError(file + ": no such file");
+    if (!std::filesystem::is_regular_file(status)) throw InputError(file + ": not a regular file");
+    const auto bytes = std::filesystem::file_size(file, error);
+    if (error) throw InputError(file + ": cannot open: " + error.message());
+    const ExrSource source{file, static_cast<std::int64_t>(bytes)};
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) source.refuse(std::string("cannot open: ") + std::strerror(errno));
+    std::array<char, 4> magic{};
+    stream.read(magic.data(), magic.size());
+    if (!stream || !Imf::isImfMagic(magic.data())) source.refuse("not an OpenEXR file");
+    return source;
+}
+
+void check_attribute_sizes(const ExrSource& source) {
+    Imf::StdIFStream stream(source.file.c_str());
+    read_number<int>(stream); // the magic number
+    const int version = read_number<int>(stream);
+    // A file of several parts ends its headers with one that has no attributes.
+    while (skip_header(source, stream) > 0 && Imf::isMultiPart(version)) {
+    }
+}
+
+} // namespace parhelion

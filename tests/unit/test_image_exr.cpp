@@ -1,0 +1,159 @@
+// EXR writing and reading back: bits, layers, metadata, windows, component formats.
+#include "host/image/exr.h"
+#include "test_image_tools.h"
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <random>
+
+using namespace parhelion;
+using namespace image_test;
+
+namespace {
+
+/// Random bits: every kind of float, NaN and infinity included.
+std::vector<float> random_floats(std::size_t count, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::vector<float> values(count);
+    for (float& value : values)
+        value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+    return values;
+}
+
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), 4 * a.size()) == 0;
+}
+
+Image sample_image(int width, int height) {
+    Image image = make_image(width, height);
+    const std::size_t count = image.pixel_count();
+    add_rgb_layer(image, "", random_floats(3 * count, 1));
+    add_channel(image, "A", random_floats(count, 2));
+    add_rgb_layer(image, "albedo", random_floats(3 * count, 3));
+    const std::vector<std::string> xyz{"X", "Y", "Z"};
+    add_layer(image, "sh_normal", xyz, random_floats(3 * count, 4));
+    add_channel(image, "depth.T", random_floats(count, 5));
+    return image;
+}
+
+MetadataValue metadata(const Image& image, const std::string& name) {
+    for (const auto& [key, value] : image.metadata)
+        if (key == name) return value;
+    FAIL("no metadata " << name);
+    return {};
+}
+
+} // namespace
+
+TEST_CASE("EXR: every float of every layer comes back to the bit") {
+    const TemporaryFolder folder;
+    for (const auto& [width, height] : {std::pair{1, 1}, {37, 131}, {64, 64}, {3, 257}}) {
+        const Image image = sample_image(width, height);
+        const std::string file = folder.file("image.exr");
+        CHECK(write_exr(file, image) == 0);
+        const Image back = read_exr(file);
+        CHECK(back.width == width);
+        CHECK(back.height == height);
+        CHECK(back.channels.size() == image.channels.size());
+        for (const Channel& channel : image.channels) {
+            const Channel* found = find_channel(back, channel.name);
+            REQUIRE(found);
+            CHECK(same_bits(found->values, channel.values));
+        }
+    }
+    CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("EXR: the top row comes first and x runs to the right") {
+    const TemporaryFolder folder;
+    Image image = make_image(3, 2);
+    add_channel(image, "Y", {1, 2, 3, 4, 5, 6});
+    CHECK(write_exr(folder.file("a.exr"), image) == 0);
+    CHECK(read_exr(folder.file("a.exr")).channels.at(0).values ==
+          std::vector<float>{1, 2, 3, 4, 5, 6});
+}
+
+TEST_CASE("EXR: crops keep their place in the frame") {
+    const TemporaryFolder folder;
+    Image image = make_image(5, 4);
+    image.full_width = 640;
+    image.full_height = 480;
+    image.offset_x = 100;
+    image.offset_y = 470;
+    add_channel(image, "Y", random_floats(20, 9));
+    CHECK(write_exr(folder.file("crop.exr"), image) == 0);
+    const Image back = read_exr(folder.file("crop.exr"));
+    CHECK(back.width == 5);
+    CHECK(back.height == 4);
+    CHECK(back.full_width == 640);
+    CHECK(back.full_height == 480);
+    CHECK(back.offset_x == 100);
+    CHECK(back.offset_y == 470);
+    CHECK(same_bits(back.channels.at(0).values, image.channels[0].values));
+}
+
+TEST_CASE("EXR: metadata comes back with its type") {
+    const TemporaryFolder folder;
+    Image image = make_image(1, 1);
+    add_channel(image, "Y", {0});
+    image.metadata = {{"scene", std::string("a scene.xml")},
+                      {"parhelion.render_seconds", 1.25},
+                      {"spp", std::int64_t(64)},
+                      {"negative", std::int64_t(-1)},
+                      {"seed", std::int64_t(4294967295)}};
+    CHECK(write_exr(folder.file("m.exr"), image) == 0);
+    const Image back = read_exr(folder.file("m.exr"));
+    CHECK(std::get<std::string>(metadata(back, "scene")) == "a scene.xml");
+    CHECK(std::get<double>(metadata(back, "parhelion.render_seconds")) == 1.25);
+    CHECK(std::get<std::int64_t>(metadata(back, "spp")) == 64);
+    CHECK(std::get<std::int64_t>(metadata(back, "negative")) == -1);
+    // EXR has no integer above 32 bits.
+    CHECK(std::get<std::string>(metadata(back, "seed")) == "4294967295");
+    CHECK(back.metadata.size() == 5);
+
+    image.metadata = {{"dataWindow", std::string("mine")}};
+    CHECK_THROWS_AS(write_exr(folder.file("n.exr"), image), std::invalid_argument);
+    CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("EXR: float16 rounds to nearest and counts what becomes infinite") {
+    const TemporaryFolder folder;
+    const float infinity = std::numeric_limits<float>::infinity();
+    Image image = make_image(7, 1);
+    add_channel(image, "Y", {0.1f, -2.0f, 65504.0f, 65519.0f, 65520.0f, -1e30f, infinity});
+    CHECK(write_exr(folder.file("h.exr"), image, {ComponentFormat::float16}) == 2);
+    const std::vector<float> back = read_exr(folder.file("h.exr")).channels.at(0).values;
+    CHECK(back == std::vector<float>{0.0999755859375f, -2.0f, 65504.0f, 65504.0f, infinity,
+                                     -infinity, infinity});
+}
+
+TEST_CASE("EXR: uint32 rounds to the nearest integer and counts what does not fit") {
+    const TemporaryFolder folder;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    Image image = make_image(6, 1);
+    add_channel(image, "Y", {0.4f, 1.6f, 16777215.0f, -0.4f, -3.0f, nan});
+    CHECK(write_exr(folder.file("u.exr"), image, {ComponentFormat::uint32}) == 2);
+    CHECK(read_exr(folder.file("u.exr")).channels.at(0).values ==
+          std::vector<float>{0, 2, 16777215.0f, 0, 0, 0});
+
+    image.channels[0].values[0] = 16777216.0f;
+    image.channels[0].values[1] = 1e20f;
+    CHECK(write_exr(folder.file("big.exr"), image, {ComponentFormat::uint32}) == 3);
+    const std::string message = refusal([&] { read_exr(folder.file("big.exr")); });
+    CHECK_THAT(message, Catch::Contains("channel Y holds unsigned integers of 2^24"));
+}
+
+TEST_CASE("Image: channels that do not belong are refused") {
+    Image image = make_image(2, 2);
+    add_channel(image, "Y", std::vector<float>(4));
+    CHECK_THROWS_AS(add_channel(image, "Y", std::vector<float>(4)), std::invalid_argument);
+    CHECK_THROWS_AS(add_channel(image, "", std::vector<float>(4)), std::invalid_argument);
+    CHECK_THROWS_AS(add_channel(image, "Z", std::vector<float>(3)), std::invalid_argument);
+    CHECK_THROWS_AS(add_rgb_layer(image, "n", std::vector<float>(4)), std::invalid_argument);
+    CHECK_THROWS_AS(make_image(0, 1), std::invalid_argument);
+    CHECK(image.channels.size() == 1);
+    CHECK(layer_of("a.b.R") == "a.b");
+    CHECK(layer_of("R").empty());
+}
