@@ -52,10 +52,8 @@ std::array<Interval, 3> extents(const PrimitiveRecord& p) {
 
 Reference make_reference(const PrimitiveRecord& primitive, int number) {
     std::array<Interval, 3> e = extents(primitive);
-    // + 0 turns -0 into 0 and changes nothing else.
-    Float4 low = {e[0].low + 0.f, e[1].low + 0.f, e[2].low + 0.f, hide_integer(number)};
-    Float4 high = {e[0].high + 0.f, e[1].high + 0.f, e[2].high + 0.f,
-                   hide_integer(geometry_kind(primitive))};
+    Float4 low = {e[0].low, e[1].low, e[2].low, hide_integer(number)};
+    Float4 high = {e[0].high, e[1].high, e[2].high, hide_integer(geometry_kind(primitive))};
     return {{low, high}};
 }
 

@@ -60,8 +60,7 @@ inline int geometry_kind(const PrimitiveRecord& primitive) {
     return primitive.flags & PRIMITIVE_KIND_MASK;
 }
 
-/// Box and number of a primitive: exact for a triangle, rounded outward for a sphere or a disk. No
-/// coordinate is -0, so that the minimum of several does not depend on their order.
+/// Box and number of a primitive: exact for a triangle, rounded outward for a sphere or a disk.
 Reference make_reference(const PrimitiveRecord& primitive, int number);
 
 } // namespace parhelion

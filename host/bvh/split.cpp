@@ -18,8 +18,9 @@ constexpr std::size_t GRAIN = 1 << 13; // references in a task
 using Int4 = int __attribute__((vector_size(16)));
 using Blocks = tbb::blocked_range<std::size_t>;
 
-/// Folds fold(T, reference) over the range, joining parts with join(T, T). Minima, maxima and
-/// counts do not depend on how the range was cut up.
+/// Folds fold(T, reference) over the range, joining neighbouring parts with join(T, T) in their
+/// order. Minima, maxima and counts do not depend on how the range was cut up (and of 0 and -0 the
+/// last one wins, however it was cut).
 template<class T, class Fold, class Join>
 T reduce(std::span<const Reference> range, const T& start, const Fold& fold, const Join& join) {
     auto serial = [&](const Blocks& block, T value) {

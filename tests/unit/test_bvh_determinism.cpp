@@ -37,7 +37,7 @@ bool same_bits(const Tree& a, const Tree& b) {
 TEST_CASE("The tree does not depend on threads or time", "[bvh]") {
     Primitives mixture = random_mixture(120000);
     for (std::size_t i = 0; i < mixture.size(); i += 7)
-        mixture[i].ax = i % 2 ? -0.f : 0.f; // -0 = 0, in other bits
+        mixture[i].ax = i % 2 ? -0.f : 0.f; // equal, in other bits
     struct Case {
         const char* name;
         const Primitives& primitives;
