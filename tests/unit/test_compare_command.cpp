@@ -1,0 +1,267 @@
+// `parhelion compare`: exit codes, what it refuses, the JSON report, Mitsuba's references.
+#include "host/commands/compare.h"
+#include "host/error.h"
+#include "host/image/exr.h"
+#include "host/image/srgb.h"
+#include "test_image_tools.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <sstream>
+
+using namespace parhelion;
+using namespace image_test;
+
+namespace {
+
+constexpr int edge = 16;
+
+Image rgb_image(float r, float g, float b) {
+    Image image = make_image(edge, edge);
+    std::vector<float> pixels;
+    for (int i = 0; i < edge * edge; ++i)
+        pixels.insert(pixels.end(), {r, g, b});
+    add_rgb_layer(image, "", pixels);
+    return image;
+}
+
+std::string store(const TemporaryFolder& folder, const std::string& name, const Image& image) {
+    CHECK(write_exr(folder.file(name), image) == 0);
+    return folder.file(name);
+}
+
+/// Runs the program's command line; -1 for one CLI11 refuses.
+int run(std::vector<std::string> arguments) {
+    CLI::App app;
+    int code = -1;
+    add_compare_command(app, code);
+    arguments.insert(arguments.begin(), "compare");
+    std::reverse(arguments.begin(), arguments.end()); // as CLI::App::parse wants them
+    std::ostringstream swallowed;
+    std::streambuf* const terminal = std::cout.rdbuf(swallowed.rdbuf());
+    try {
+        app.parse(arguments);
+    } catch (const CLI::ParseError&) {
+        code = -1;
+    } catch (const InputError& error) {
+        code = static_cast<int>(ExitCode::bad_input);
+        CHECK(std::string(error.what()).find('\n') == std::string::npos);
+        CHECK(swallowed.str().empty());
+    }
+    std::cout.rdbuf(terminal);
+    return code;
+}
+
+nlohmann::json report(CompareOptions options, int expected_code) {
+    options.json = true;
+    std::ostringstream out;
+    CHECK(run_compare(options, out) == expected_code);
+    return nlohmann::json::parse(out.str());
+}
+
+CompareOptions compare_options(const std::string& a, const std::string& b) {
+    CompareOptions options;
+    options.image = a;
+    options.reference = b;
+    return options;
+}
+
+} // namespace
+
+TEST_CASE("compare: exit codes follow the limits") {
+    const TemporaryFolder folder;
+    const std::string a = store(folder, "a.exr", rgb_image(0.5f, 0.5f, 0.5f));
+    const std::string b = store(folder, "b.exr", rgb_image(0.5f, 0.5f, 0.25f));
+    CHECK(run({a, b}) == 0);
+    CHECK(run({a, a, "--max", "0", "--rmse", "0", "--flip", "0", "--bias", "0"}) == 0);
+    // Differences are 0.25 in blue: RMSE and the rest follow.
+    CHECK(run({a, b, "--max", "0.25"}) == 0);
+    CHECK(run({a, b, "--max", "0.2499"}) == 1);
+    CHECK(run({a, b, "--rmse", "0.1444"}) == 0); // 0.25 / sqrt(3) = 0.14434
+    CHECK(run({a, b, "--rmse", "0.1443"}) == 1);
+    CHECK(run({a, b, "--mae", "0.0834"}) == 0); // 0.25 / 3
+    CHECK(run({a, b, "--mae", "0.0833"}) == 1);
+    CHECK(run({a, b, "--bias", "1"}) == 0); // 0.25 over 0.25
+    CHECK(run({a, b, "--bias", "0.999"}) == 1);
+    CHECK(run({a, b, "--relmse", "0.288"}) == 0); // 0.0625 / (0.0625 + 0.01) / 3 = 0.28736
+    CHECK(run({a, b, "--relmse", "0.287"}) == 1);
+    CHECK(run({a, b, "--relmse", "0.167", "--epsilon", "0.0625"}) == 0); // 1 / 6
+    CHECK(run({a, b, "--relmse", "0.166", "--epsilon", "0.0625"}) == 1);
+    CHECK(run({a, b, "--flip", "0.9"}) == 0);
+    CHECK(run({a, b, "--flip", "0.01"}) == 1);
+    CHECK(run({a, b, "--max", "1", "--mae", "0.01"}) == 1);
+}
+
+TEST_CASE("compare: what cannot be compared has exit code 2 and one line") {
+    const TemporaryFolder folder;
+    const std::string a = store(folder, "a.exr", rgb_image(0.5f, 0.5f, 0.5f));
+    Image other = make_image(edge, edge + 1);
+    add_rgb_layer(other, "", std::vector<float>(3 * edge * (edge + 1)));
+    CHECK(run({a, store(folder, "size.exr", other)}) == 2);
+    Image moved = rgb_image(0.5f, 0.5f, 0.5f);
+    moved.offset_x = 1;
+    CHECK(run({a, store(folder, "moved.exr", moved)}) == 2);
+    Image depth = make_image(edge, edge);
+    add_channel(depth, "depth.T", std::vector<float>(edge * edge));
+    const std::string d = store(folder, "depth.exr", depth);
+    CHECK(run({a, d}) == 2);
+    CHECK(run({a, a, "--layer", "albedo"}) == 2);
+    CHECK(run({d, d, "--layer", "depth"}) == 0);
+    CHECK(run({d, d, "--layer", "depth", "--flip", "1"}) == 2);
+    CHECK(run({a, folder.file("none.exr")}) == 2);
+    CHECK(run({a, a, "--max", "nan"}) == 2);
+    CHECK(run({a, a, "--rmse", "-1"}) == 2);
+    CHECK(run({a, a, "--epsilon", "inf"}) == 2);
+    CHECK(run({a, a, "--ppd", "0"}) == 2);
+    CHECK(run({a, a, "--variance", a, "--spp", "0"}) == 2);
+    CHECK(run({a, a, "--variance", a, "--spp", "4", "--alpha", "1"}) == 2);
+    CHECK(run({a}) == -1);
+    CHECK(run({a, a, "--variance", a}) == -1); // CLI11: --variance needs --spp
+    CHECK(run({a, a, "--spp", "4"}) == -1);
+}
+
+TEST_CASE("compare: values that are not finite") {
+    const TemporaryFolder folder;
+    const std::string a = store(folder, "a.exr", rgb_image(0.5f, 0.5f, 0.5f));
+    Image broken = rgb_image(0.5f, 0.5f, 0.5f);
+    broken.channels[1].values[edge + 3] = std::numeric_limits<float>::quiet_NaN();
+    const std::string b = store(folder, "b.exr", broken);
+    CHECK_THAT(refusal([&] {
+                   std::ostringstream out;
+                   run_compare(compare_options(b, a), out);
+               }),
+               Catch::Contains("1 of them not the same in both (first at 3,1 in G)"));
+    CHECK(run({a, b, "--max", "1"}) == 2);
+    CHECK(run({b, b, "--max", "0"}) == 0);
+    CHECK(run({b, b, "--flip", "1"}) == 2); // FLIP is not defined there
+    const nlohmann::json same = report(compare_options(b, b), 0);
+    CHECK(same.at("non_finite_equal_values") == 1);
+    CHECK(same.at("identical") == true);
+    CHECK(same.at("flip").is_null());
+}
+
+TEST_CASE("compare: the JSON report holds what was measured") {
+    const TemporaryFolder folder;
+    Image image = rgb_image(0.5f, 0.5f, 0.5f);
+    image.channels[2].values[2 * edge + 7] = 1.5f;
+    const std::string a = store(folder, "a.exr", image);
+    const std::string b = store(folder, "b.exr", rgb_image(0.5f, 0.5f, 0.5f));
+    CompareOptions options = compare_options(a, b);
+    options.max = 0.5;
+    const nlohmann::json json = report(options, 1);
+    CHECK(json.at("pass") == false);
+    CHECK(json.at("identical") == false);
+    CHECK(json.at("width_px") == edge);
+    CHECK(json.at("height_px") == edge);
+    CHECK(json.at("max_error") ==
+          nlohmann::json{{"value", 1.0}, {"channel", "B"}, {"x_px", 7}, {"y_px", 2}});
+    CHECK(json.at("channels").size() == 3);
+    CHECK(json.at("channels")[2].at("channel") == "B");
+    CHECK(json.at("channels")[2].at("mae").get<double>() == Approx(1.0 / 256));
+    CHECK(json.at("channels")[2].at("bias_relative").get<double>() == Approx(2.0 / 256));
+    CHECK(json.at("all").at("rmse").get<double>() == Approx(std::sqrt(1.0 / 768)));
+    CHECK(json.at("relmse_epsilon") == 0.01);
+    CHECK(json.at("flip").at("mean").get<double>() > 0.0);
+    CHECK(json.at("flip").at("pixels_per_degree").get<double>() == Approx(67.0206).margin(1e-4));
+    CHECK(json.at("z_test").is_null());
+    CHECK(json.at("limits")[0] ==
+          nlohmann::json{{"figure", "max"}, {"limit", 0.5}, {"measured", 1.0}, {"pass", false}});
+}
+
+TEST_CASE("compare: alpha and AOV layers") {
+    const TemporaryFolder folder;
+    Image image = rgb_image(1, 1, 1);
+    add_channel(image, "A", std::vector<float>(edge * edge, 1.0f));
+    add_channel(image, "Z", std::vector<float>(edge * edge, 9.0f));
+    add_rgb_layer(image, "albedo", std::vector<float>(3 * edge * edge, 0.5f));
+    Image other = image;
+    other.channels[5].values[0] = 0.0f; // albedo.R
+    other.channels[4].values[0] = 0.0f; // Z, no colour
+    const std::string a = store(folder, "a.exr", image), b = store(folder, "b.exr", other);
+    const nlohmann::json main = report(compare_options(a, b), 0);
+    CHECK(main.at("identical") == true);
+    CHECK(main.at("channels").size() == 4);
+    CompareOptions options = compare_options(a, b);
+    options.figures.layer = "albedo";
+    const nlohmann::json layer = report(options, 0);
+    CHECK(layer.at("max_error").at("channel") == "albedo.R");
+    CHECK(layer.at("max_error").at("value") == 0.5);
+    CHECK(!layer.at("flip").is_null());
+}
+
+TEST_CASE("compare: the z-tests decide the exit code") {
+    const TemporaryFolder folder;
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal;
+    const Image truth = rgb_image(1, 2, 3);
+    Image noisy = truth, biased = truth;
+    for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < edge * edge; ++i) {
+            noisy.channels[c].values[i] += normal(random) * 0.02f; // 0.2 / sqrt(100)
+            biased.channels[c].values[i] = noisy.channels[c].values[i] + 0.01f;
+        }
+    const std::string a = store(folder, "a.exr", noisy), b = store(folder, "b.exr", biased);
+    const std::string r = store(folder, "r.exr", truth);
+    const std::string v = store(folder, "v.exr", rgb_image(0.04f, 0.04f, 0.04f));
+    CHECK(run({a, r, "--variance", v, "--spp", "100"}) == 0);
+    CHECK(run({a, r, "--variance", v, "--spp", "10000"}) == 1);
+    CHECK(run({b, r, "--variance", v, "--spp", "100"}) == 1);
+    CHECK(run({a, r, "--variance", v, "--spp", "100", "--max", "0"}) == 1);
+    Image small = make_image(1, 1);
+    add_rgb_layer(small, "", std::vector<float>(3));
+    CHECK(run({a, r, "--variance", store(folder, "small.exr", small), "--spp", "100"}) == 2);
+    const std::string negative = store(folder, "n.exr", rgb_image(0.04f, -0.04f, 0.04f));
+    CHECK(run({a, r, "--variance", negative, "--spp", "100"}) == 2);
+
+    CompareOptions options = compare_options(b, r);
+    options.variance = v;
+    options.test.samples = 100;
+    const nlohmann::json json = report(options, 1).at("z_test");
+    CHECK(json.at("pixels").at("pass") == true); // blind to this bias
+    CHECK(json.at("mean").at("pass") == false);
+    CHECK(json.at("mean").at("channels")[0].at("standard_error").get<double>() ==
+          Approx(0.02 / 16).epsilon(1e-6));
+}
+
+TEST_CASE("compare: Mitsuba's references pass with noise of their own variance and not without") {
+    const std::string data = data_folder("mitsuba-tests/tests/scenes/bsdf_spheres/refs");
+    if (data.empty()) return;
+    const TemporaryFolder folder;
+    const std::string reference = data + "/test_constant_ref_rgb.exr";
+    const std::string variance = data + "/test_constant_ref_rgb_var.exr";
+    const Image mean_image = read_exr(reference), variance_image = read_exr(variance);
+    const double samples = 2000000 / static_cast<double>(mean_image.pixel_count());
+    const Matrix3 to_xyz = inverse(xyz_to_srgb);
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    const auto noisy = [&](double factor) {
+        Image image = mean_image;
+        const auto value = [&](const Image& from, const char* name, std::size_t i) {
+            return double(find_channel(from, name)->values[i]);
+        };
+        for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+            auto xyz = transform(to_xyz, {value(mean_image, "R", i), value(mean_image, "G", i),
+                                          value(mean_image, "B", i)});
+            const auto spread =
+                transform(to_xyz, {value(variance_image, "R", i), value(variance_image, "G", i),
+                                   value(variance_image, "B", i)});
+            for (int c = 0; c < 3; ++c)
+                if (spread[c] > 0.0)
+                    xyz[c] += factor * normal(random) * std::sqrt(spread[c] / samples);
+            const auto rgb = transform(xyz_to_srgb, xyz);
+            for (Channel& channel : image.channels)
+                for (int c = 0; c < 3; ++c)
+                    if (channel.name == std::string(1, "RGB"[c]))
+                        channel.values[i] = static_cast<float>(rgb[c]);
+        }
+        return image;
+    };
+    const std::string good = store(folder, "good.exr", noisy(1.0));
+    const std::string bad = store(folder, "bad.exr", noisy(2.0));
+    const std::string spp = std::to_string(samples);
+    CHECK(run({good, reference, "--variance", variance, "--spp", spp, "--xyz-statistics"}) == 0);
+    CHECK(run({bad, reference, "--variance", variance, "--spp", spp, "--xyz-statistics"}) == 1);
+}
