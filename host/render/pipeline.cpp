@@ -22,14 +22,16 @@ std::size_t WorkBuffers::bytes() const {
 }
 
 WorkSizes work_sizes(int crop_width, int crop_height, int samples, int lanes, int film_channels, const WorkSplit& split) {
-    constexpr int longest_wave = 16; // samples: neighbouring pixels stay together in a segment
     WorkSizes s;
     s.blocks_x = (crop_width + 3) / 4;
     s.blocks_y = (crop_height + 3) / 4;
     int groups = std::max(1, split.pool_paths / BLOCK_PIXELS);
-    s.samples_per_wave = std::min({samples, longest_wave, groups});
-    s.blocks_per_wave = static_cast<int>(
-        std::min<std::int64_t>(groups / s.samples_per_wave, static_cast<std::int64_t>(s.blocks_x) * s.blocks_y));
+    // Few samples of many blocks, so that neighbouring pixels share a segment; more where the film is too small to fill the pool.
+    constexpr int usual = 16;
+    std::int64_t blocks = static_cast<std::int64_t>(s.blocks_x) * s.blocks_y;
+    int to_fill = static_cast<int>(std::max<std::int64_t>(usual, groups / blocks));
+    s.samples_per_wave = std::min({samples, to_fill, groups});
+    s.blocks_per_wave = static_cast<int>(std::min<std::int64_t>(groups / s.samples_per_wave, blocks));
     s.path_capacity = s.blocks_per_wave * s.samples_per_wave * BLOCK_PIXELS;
     s.segment_size = lanes == 1 ? std::max(1, split.segment_paths) : rounded_up(std::max(1, split.segment_paths), 16);
     s.segment_size = std::min(s.segment_size, s.path_capacity);

@@ -1,0 +1,94 @@
+// Mitsuba 3's own render tests: every scene whose plugins we have passes its published z-test, and the mean's; every other is
+// refused with a line that names what is missing.
+#include "host/image/comparison.h"
+#include "host/image/exr.h"
+#include "tests/support/render_scene.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+namespace {
+
+using namespace parhelion;
+namespace fs = std::filesystem;
+
+constexpr int pixel_samples = 2000000; // of a whole image: Mitsuba's sample budget
+
+struct RenderTest {
+    fs::path scene, reference, variance;
+};
+
+/// Mitsuba's naming: test_x_path.xml stands beside refs/test_x_ref_rgb.exr.
+std::vector<RenderTest> render_tests(const fs::path& folder) {
+    std::set<fs::path> scenes;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".xml") scenes.insert(entry.path());
+    std::vector<RenderTest> tests;
+    for (const fs::path& scene : scenes) {
+        std::string stem = scene.stem().string();
+        fs::path refs = scene.parent_path() / "refs";
+        std::string base = stem.substr(0, stem.rfind('_'));
+        RenderTest test{scene, refs / (base + "_ref_rgb.exr"), refs / (base + "_ref_rgb_var.exr")};
+        if (fs::exists(test.reference) && fs::exists(test.variance)) tests.push_back(test);
+    }
+    return tests;
+}
+
+/// The error line of a scene that cannot be loaded; empty if it can.
+std::string refusal(const RenderCommand& command) {
+    try {
+        test::load(command);
+        return {};
+    } catch (const InputError& e) {
+        return e.what();
+    }
+}
+
+Comparison compare_with_reference(const RenderTest& t, RenderCommand command) {
+    Image reference = read_exr(t.reference.string()), variance = read_exr(t.variance.string());
+    command.samples = pixel_samples / (reference.width * reference.height);
+    RenderResult result = test::render_quietly(test::load(command));
+    CHECK(result.report.non_finite_samples == 0);
+    VarianceInput input{{"variance", variance}, true, {}};
+    input.test.samples = *command.samples;
+    input.test.reference_samples = *command.samples;
+    return compare_images({"ours", result.image}, {"reference", reference}, {}, input);
+}
+
+} // namespace
+
+TEST_CASE("Mitsuba's render tests pass where we have the plugins, and the rest say what is missing") {
+    const char* data = std::getenv("PARHELION_DATA");
+    fs::path folder = data ? fs::path(data) / "mitsuba-tests/tests/scenes" : "";
+    if (!data || !fs::is_directory(folder)) {
+        WARN("skipped: PARHELION_DATA has no mitsuba-tests");
+        return;
+    }
+    int rendered = 0;
+    for (const RenderTest& t : render_tests(folder)) {
+        INFO(t.scene.string());
+        RenderCommand command;
+        command.scene_file = t.scene.string();
+        command.allow_outside = true; // they share ../../../common
+        std::string why_not = refusal(command);
+        if (!why_not.empty()) {
+            fmt::print("not yet: {}\n", why_not);
+            CHECK(why_not.find(".xml:") != std::string::npos);
+            CHECK((why_not.find("supported") != std::string::npos || why_not.find("cannot hold") != std::string::npos));
+            continue;
+        }
+        rendered++;
+        Comparison c = compare_with_reference(t, command);
+        REQUIRE(c.z_test);
+        fmt::print("{}: {:.2f} % of the values pass", t.scene.stem().string(), 100.0 * c.z_test->pixels.fraction());
+        for (const MeanTest& m : c.z_test->means) fmt::print(", mean {} p {:.3f}", m.channel, m.p);
+        fmt::print("\n");
+        CHECK(c.z_test->pixels_pass);
+        CHECK(c.z_test->means_pass);
+    }
+    CHECK(rendered >= 1);
+}
