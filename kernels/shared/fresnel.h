@@ -25,7 +25,9 @@ FN Fresnel fresnel_dielectric(Real c, Interface i) {
     Real q = eta_squared * c;
     Real q_squared = sel(transmits, g_squared + q * (q + 2.f * g), R(1.));
     Real r_s = i.m_high / s_squared;
-    Real r_p = i.m_high * ((eta_squared + 1.f) * p - 1.f) / q_squared;
+    // (eta^2 + 1) c^2 - 1 = g^2 - eta^2 sin^2: the second form keeps its digits where the critical angle is near Brewster's.
+    Real steep = g_squared - eta_squared * ((R(1.) - c) * (R(1.) + c));
+    Real r_p = i.m_high * sel(p > R(.5), steep, (eta_squared + 1.f) * p - 1.f) / q_squared;
     Fresnel f;
     f.reflectance = sel(transmits, .5f * (r_s * r_s + r_p * r_p), R(1.));
     f.transmittance = sel(transmits, 2.f * c * g * (R(1.) / s_squared + eta_squared / q_squared), R(0.));
@@ -65,9 +67,16 @@ FN Real fresnel_conductor(Real c, Real eta, Real k) {
     Real small = sel(large > R(0.), half_product * half_product / sel(large > R(0.), large, R(1.)), R(0.));
     Real a_squared = sel(difference > R(0.), large, small);
     Real a = sqrtR(a_squared);
+    Real b_squared = sel(difference > R(0.), small, large);
     Real two_ac = 2.f * a * c;
     Real s_sum = modulus + c_squared;
-    Real r_s = (s_sum - two_ac) / (s_sum + two_ac);
+    // (a - c)^2 + b^2 is s_sum - two_ac, which cancels where little is reflected; there a - c = (a^2 - c^2)/(a + c), and
+    // a^2 - c^2 = eta^2 - 1 - k^2 + b^2.
+    Real a_plus_c = a + c;
+    Mask faint = two_ac > .5f * s_sum;
+    Real a_minus_c = ((eta - 1.f) * (eta + 1.f) - k * k + b_squared) / sel(faint, a_plus_c, R(1.));
+    Real s_difference = sel(faint, a_minus_c * a_minus_c + b_squared, s_sum - two_ac);
+    Real r_s = s_difference / (s_sum + two_ac);
     Real p_sum = c_squared * modulus + s_squared * s_squared;
     Real two_acs = two_ac * s_squared;
     Real r_p = r_s * (p_sum - two_acs) / (p_sum + two_acs);
