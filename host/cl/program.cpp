@@ -22,9 +22,12 @@ std::string kernel_name(const std::string& file) { return file.substr(0, file.fi
 
 Program::Program(const cl::Context& context, const Device& device, const ProgramCache& cache,
                  const std::string& file, const ProgramOptions& options)
+    : Program(context, device, cache, file, kernel_source(file), options) {}
+
+Program::Program(const cl::Context& context, const Device& device, const ProgramCache& cache,
+                 const std::string& file, const std::string& source, const ProgramOptions& options)
     : file_(file), options_(option_text(options)) {
     auto start = std::chrono::steady_clock::now();
-    std::string source = kernel_source(file);
     key_ = fmt::format("{}\n{}\n{}\n{}\n{}\n", device.platform, device.name, device.driver_version,
                        device.opencl_version, options_) +
            source;

@@ -21,6 +21,9 @@ public:
     /// Takes the program from the cache or compiles it. Throws DeviceError with the compiler's log.
     Program(const cl::Context& context, const Device& device, const ProgramCache& cache,
             const std::string& file, const ProgramOptions& options);
+    /// The same for a source already put together; `file` names it and its kernel.
+    Program(const cl::Context& context, const Device& device, const ProgramCache& cache,
+            const std::string& file, const std::string& source, const ProgramOptions& options);
 
     /// The kernel of the file: "shade.cl" holds kernel `shade`.
     cl::Kernel kernel() const;

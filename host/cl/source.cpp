@@ -26,9 +26,9 @@ std::string_view included_path(std::string_view line) {
     return line.substr(0, line.find('"'));
 }
 
-void append_file(std::string_view path, std::set<std::string_view>& done, std::string& source) {
-    if (!done.insert(path).second) return;
-    std::string_view text = embedded_text(path);
+void append_file(std::string_view path, std::set<std::string_view>& done, std::string& source);
+
+void append_text(std::string_view path, std::string_view text, std::set<std::string_view>& done, std::string& source) {
     source += fmt::format("#line 1 \"{}\"\n", path);
     int line_number = 0;
     while (!text.empty()) {
@@ -46,7 +46,18 @@ void append_file(std::string_view path, std::set<std::string_view>& done, std::s
     }
 }
 
+void append_file(std::string_view path, std::set<std::string_view>& done, std::string& source) {
+    if (done.insert(path).second) append_text(path, embedded_text(path), done, source);
+}
+
 } // namespace
+
+std::string kernel_source(std::string_view name, std::string_view text) {
+    std::set<std::string_view> done;
+    std::string source;
+    append_text(name, text, done, source);
+    return source;
+}
 
 std::string kernel_source(std::string_view path) {
     std::set<std::string_view> done;

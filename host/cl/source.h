@@ -10,4 +10,7 @@ namespace parhelion {
 /// once each, and #line directives so that compiler messages name the real file and line.
 std::string kernel_source(std::string_view path);
 
+/// The same for a text that is not embedded (a test's kernel); `name` is what compiler messages call it.
+std::string kernel_source(std::string_view name, std::string_view text);
+
 } // namespace parhelion

@@ -1,0 +1,68 @@
+// For the device tests: the device, the kinds of program every kernel comes in, and kernels that
+// only tests need.
+#pragma once
+
+#include "host/cl/buffer.h"
+#include "host/cl/program.h"
+#include "host/cl/source.h"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace parhelion::test {
+
+/// A context of its own on the default device.
+struct TestDevice {
+    Device device = choose_device("");
+    cl::Context context{device.handle};
+    cl::CommandQueue queue{context, device.handle};
+};
+
+/// How the same kernel text can be compiled. All of them must give the same bits.
+struct Variant {
+    int lanes;
+    bool portable;
+
+    std::string name() const {
+        return fmt::format("{} lanes{}", lanes, portable ? ", portable" : "");
+    }
+};
+inline constexpr Variant variants[] = {{16, false}, {16, true}, {8, false}, {8, true}, {1, false}};
+
+inline std::string test_kernel_text(const std::string& name) {
+    std::filesystem::path path =
+        std::filesystem::path(PARHELION_SOURCE_DIR) / "tests/device/kernels" / name;
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw std::runtime_error("no test kernel " + path.string());
+    return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+/// A program from files of tests/device/kernels, one after the other; the last holds the kernel and
+/// gives it its name.
+inline Program test_program(const TestDevice& d, const std::vector<std::string>& files,
+                            const Variant& variant, std::uint64_t features = ~std::uint64_t{0}) {
+    std::string text;
+    for (const std::string& file : files)
+        text += fmt::format("#line 1 \"{}\"\n", file) + test_kernel_text(file);
+    return Program(d.context, d.device, ProgramCache({}), files.back(),
+                   kernel_source(files.back(), text), {variant.lanes, features, variant.portable});
+}
+
+template<class T>
+Buffer<T> device_copy(const TestDevice& d, const char* name, const std::vector<T>& values) {
+    return Buffer<T>(d.context, d.queue, name, values.data(), values.size());
+}
+
+template<class T>
+std::vector<T> host_copy(const TestDevice& d, const Buffer<T>& buffer) {
+    std::vector<T> values(buffer.count());
+    buffer.read(d.queue, values.data());
+    return values;
+}
+
+} // namespace parhelion::test
