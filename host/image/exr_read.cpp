@@ -5,6 +5,7 @@
 #include "host/image/exr_source.h"
 
 #include <ImfChannelList.h>
+#include <ImfCompression.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
@@ -30,7 +31,6 @@ namespace {
 constexpr std::int64_t largest_edge = 1 << 20;    ///< pixels
 constexpr std::int64_t largest_image = 1 << 30;   ///< values in all channels together: 4 GiB
 constexpr std::int64_t largest_tile = 1 << 26;    ///< values in all channels of one tile
-constexpr std::int64_t most_deflate_gain = 1032;  ///< no deflate stream grows by more
 constexpr int band_rows = 256;                    ///< the most rows any compression puts in a chunk
 constexpr float first_inexact_uint = 16777216.0f; ///< 2^24
 
@@ -48,6 +48,37 @@ std::string box_text(const Imath::Box2i& box) {
 
 std::pair<std::int64_t, std::int64_t> box_size(const Imath::Box2i& box) {
     return {std::int64_t(box.max.x) - box.min.x + 1, std::int64_t(box.max.y) - box.min.y + 1};
+}
+
+/// How many times its input a compression may grow at most; 0 where no bound is known.
+std::int64_t largest_gain(Imf::Compression compression) {
+    switch (compression) {
+    case Imf::NO_COMPRESSION:
+        return 1;
+    case Imf::RLE_COMPRESSION:
+        return 64; // 128 bytes from a count and a byte
+    case Imf::ZIPS_COMPRESSION:
+    case Imf::ZIP_COMPRESSION:
+        return 1032; // of deflate: 258 bytes from two bits
+    case Imf::PXR24_COMPRESSION:
+        return 1376; // the same, from 3 bytes of each 4
+    default:
+        return 0;
+    }
+}
+
+/// Refuses a data window larger than the file could hold: the library would leave the pixels a
+/// compressed block is too short for as they are in memory.
+void check_plausible(const ExrSource& source, const Imf::Header& header) {
+    const std::int64_t gain = largest_gain(header.compression());
+    const auto [width, height] = box_size(header.dataWindow());
+    std::int64_t pixel_bytes = 0;
+    for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
+        if (i.channel().xSampling == 1 && i.channel().ySampling == 1)
+            pixel_bytes += i.channel().type == Imf::HALF ? 2 : 4;
+    if (gain > 0 && width * height * pixel_bytes > gain * source.bytes)
+        source.refuse("data window " + box_text(header.dataWindow()) + " is too large for " +
+                      std::to_string(source.bytes) + " bytes of file");
 }
 
 /// Refuses windows and tiles that are empty or too large before anything is allocated for them.
@@ -86,6 +117,7 @@ void check_part(const ExrSource& source, const Imf::MultiPartInputFile& input, i
     if (header.hasType() && Imf::isDeepData(header.type()))
         source.refuse(where + "deep data is not supported");
     check_size(source, header);
+    check_plausible(source, header);
     if (header.dataWindow() != input.header(0).dataWindow() ||
         header.displayWindow() != input.header(0).displayWindow())
         source.refuse(where + "windows that differ from those of part 0 are not supported");
@@ -143,8 +175,7 @@ void read_part(const ExrSource& source, Imf::MultiPartInputFile& input, int inde
     const Imf::ChannelList& list = part.header().channels();
     const Imath::V2i corner = part.header().dataWindow().min;
     const std::size_t first_channel = image.channels.size();
-    const std::int64_t total = std::int64_t(image.pixel_count()) * channel_count(part.header());
-    const bool plausible = total <= source.bytes * most_deflate_gain;
+    const bool plausible = largest_gain(part.header().compression()) > 0; // see check_plausible
     for (auto i = list.begin(); i != list.end(); ++i) {
         image.channels.push_back({prefix + i.name(), {}});
         if (plausible) image.channels.back().values.reserve(image.pixel_count());
