@@ -48,7 +48,8 @@ FN vec3 ggx_sample_visible(vec3 wo, Real alpha_u, Real alpha_v, vec2 u) {
                          (R(1.) - u.y) * (R(1.) + stretched.z)));
 }
 
-FN Mask is_beckmann(Material m) { return (m.distribution != 0) & (HAS(beckmann) != 0); }
+/// Asked only where HAS(beckmann). (A mask of lanes must not be combined with a plain int: 1 is no mask.)
+FN Mask is_beckmann(Material m) { return m.distribution != 0; }
 
 FN Real microfacet_d(Material m, vec3 h) {
     Real d = R(0.);
