@@ -58,7 +58,8 @@ FN vec3 refract_local(vec3 w, Interface i) {
 FN Real fresnel_conductor(Real c, Real eta, Real k) {
     Real c_squared = c * c;
     Real s_squared = (R(1.) - c) * (R(1.) + c);
-    Real difference = (eta - k) * (eta + k) - s_squared;
+    Real contrast = (eta - 1.f) * (eta + 1.f) - k * k; // eta^2 - k^2 - 1
+    Real difference = contrast + c_squared;
     Real product = 2.f * eta * k;
     Real modulus = sqrtR(difference * difference + product * product); // a^2 + b^2
     // The larger of a^2, b^2 by a sum, the smaller by a quotient: (a b)^2 = (eta k)^2.
@@ -71,10 +72,10 @@ FN Real fresnel_conductor(Real c, Real eta, Real k) {
     Real two_ac = 2.f * a * c;
     Real s_sum = modulus + c_squared;
     // (a - c)^2 + b^2 is s_sum - two_ac, which cancels where little is reflected; there a - c = (a^2 - c^2)/(a + c), and
-    // a^2 - c^2 = eta^2 - 1 - k^2 + b^2.
+    // a^2 - c^2 = contrast + b^2.
     Real a_plus_c = a + c;
     Mask faint = two_ac > .5f * s_sum;
-    Real a_minus_c = ((eta - 1.f) * (eta + 1.f) - k * k + b_squared) / sel(faint, a_plus_c, R(1.));
+    Real a_minus_c = (contrast + b_squared) / sel(faint, a_plus_c, R(1.));
     Real s_difference = sel(faint, a_minus_c * a_minus_c + b_squared, s_sum - two_ac);
     Real r_s = s_difference / (s_sum + two_ac);
     Real p_sum = c_squared * modulus + s_squared * s_squared;

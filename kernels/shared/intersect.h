@@ -11,7 +11,7 @@ typedef struct {
 } Intersection;
 
 /// Watertight triangle test: corners a, b, c relative to the ray's origin, axes renamed. A ray at a shared edge or vertex
-/// hits at least one of the neighbours, for any mesh: the edge functions are exactly antisymmetric. t in ]0, t_max].
+/// hits at least one of the neighbours, for any mesh: the signs of the edge functions are exact. t in ]0, t_max].
 FN Intersection intersect_triangle(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max) {
     Real ax = a.x - ray.shear_x * a.z, ay = a.y - ray.shear_y * a.z;
     Real bx = b.x - ray.shear_x * b.z, by = b.y - ray.shear_y * b.z;

@@ -28,7 +28,7 @@ FN vec3 normalize3(vec3 a) { return scale3(a, R(1.) / length3(a)); }
 FN Mask finite3(vec3 a) { return finiteR(a.x) & finiteR(a.y) & finiteR(a.z); }
 FN Real square(Real x) { return x * x; }
 
-/// a*b - c*d within 1.5 ulp, and exactly antisymmetric under exchange of the products (Kahan; Jeannerod et al. 2013).
+/// a*b - c*d within 1.5 ulp, so that its sign is exact (Kahan; Jeannerod et al. 2013).
 FN Real difference_of_products(Real a, Real b, Real c, Real d) {
     Real cd = c * d;
     return fmaR(a, b, -cd) + fmaR(-c, d, cd);
