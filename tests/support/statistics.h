@@ -1,4 +1,5 @@
-// Statistics for tests: chi-square with pooled cells, normal tails, and the Sidak bound for many tests at once.
+// Statistics for tests: chi-square with pooled cells, normal tails, and the Sidak bound for many
+// tests at once.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +10,15 @@
 
 namespace parhelion::test {
 
-/// Regularised upper incomplete gamma function Q(a, x), a > 0, x >= 0: series below a + 1, Lentz's continued fraction
-/// above (Abramowitz and Stegun 6.5.29 and 6.5.31).
+/// Regularised upper incomplete gamma function Q(a, x), a > 0, x >= 0: series below a + 1, Lentz's
+/// continued fraction above (Abramowitz and Stegun 6.5.29 and 6.5.31).
 inline double gamma_upper_regularised(double a, double x) {
     if (x <= 0) return 1;
     double scale = std::exp(a * std::log(x) - x - std::lgamma(a));
     if (x < a + 1) {
         double term = 1 / a, sum = term;
-        for (double n = a + 1; term > sum * 1e-17; n++) sum += term *= x / n;
+        for (double n = a + 1; term > sum * 1e-17; n++)
+            sum += term *= x / n;
         return 1 - scale * sum;
     }
     double b = x + 1 - a, c = 1e300, d = 1 / b, fraction = d;
@@ -39,14 +41,17 @@ inline double chi_square_tail(double statistic, double freedom) {
 /// Two-sided p-value of a standard normal deviate.
 inline double normal_two_sided(double z) { return std::erfc(std::fabs(z) / std::sqrt(2.0)); }
 
-/// Two-sided p-value of Student's t with a whole number of degrees of freedom (Abramowitz and Stegun 26.7.3 and 26.7.4).
+/// Two-sided p-value of Student's t with a whole number of degrees of freedom (Abramowitz and
+/// Stegun 26.7.3 and 26.7.4).
 inline double student_two_sided(double t, int freedom) {
     const double angle = std::atan2(std::fabs(t), std::sqrt(double(freedom)));
     const double c2 = std::cos(angle) * std::cos(angle);
     const bool odd = freedom % 2 == 1;
     double term = odd ? std::cos(angle) : 1, sum = freedom == 1 ? 0 : term;
-    for (int k = odd ? 3 : 2; k <= freedom - 2; k += 2) sum += term *= c2 * (k - 1) / k;
-    const double inside = odd ? (angle + std::sin(angle) * sum) * 2 / 3.14159265358979323846 : std::sin(angle) * sum;
+    for (int k = odd ? 3 : 2; k <= freedom - 2; k += 2)
+        sum += term *= c2 * (k - 1) / k;
+    const double inside =
+        odd ? (angle + std::sin(angle) * sum) * 2 / 3.14159265358979323846 : std::sin(angle) * sum;
     return 1 - inside;
 }
 
@@ -55,22 +60,27 @@ inline double sidak_level(double family, std::size_t n) {
     return -std::expm1(std::log1p(-family) / double(n));
 }
 
-/// p-value of Pearson's chi-square for counts against expected counts of the same total. Cells are pooled in rising order
-/// of expectation until each pool expects at least 5; a count where (next to) nothing is expected gives 0.
-inline double chi_square_p(const std::vector<double>& observed, const std::vector<double>& expected) {
+/// p-value of Pearson's chi-square for counts against expected counts of the same total. Cells are
+/// pooled in rising order of expectation until each pool expects at least 5; a count where (next
+/// to) nothing is expected gives 0.
+inline double chi_square_p(const std::vector<double>& observed,
+                           const std::vector<double>& expected) {
     std::vector<std::size_t> order(observed.size());
-    for (std::size_t i = 0; i < order.size(); i++) order[i] = i;
+    for (std::size_t i = 0; i < order.size(); i++)
+        order[i] = i;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t i, std::size_t j) { return expected[i] < expected[j]; });
     double pool_observed = 0, pool_expected = 0, statistic = 0;
     std::size_t pools = 0, left = order.size();
     for (std::size_t i : order) {
-        if (pool_expected < 5 && pool_observed > 50) return 0; // p below 1e-30, however it is pooled
+        if (pool_expected < 5 && pool_observed > 50)
+            return 0; // p below 1e-30, however it is pooled
         pool_observed += observed[i];
         pool_expected += expected[i];
         left--;
         if (pool_expected < 5 && left > 0) continue;
-        if (pool_expected < 5 && pools > 0 && pool_observed < 30) break; // a last, small pool: nothing to learn
+        if (pool_expected < 5 && pools > 0 && pool_observed < 30)
+            break; // a last, small pool: nothing to learn
         double difference = pool_observed - pool_expected;
         statistic += difference * difference / std::max(pool_expected, 1e-9);
         pool_observed = pool_expected = 0;
@@ -81,7 +91,7 @@ inline double chi_square_p(const std::vector<double>& observed, const std::vecto
 
 /// Running mean and variance (Welford 1962).
 class Mean {
-  public:
+public:
     void add(double x) {
         count_++;
         double delta = x - mean_;
@@ -95,7 +105,7 @@ class Mean {
         return std::sqrt(squares_ / (double(count_) - 1) / double(count_));
     }
 
-  private:
+private:
     std::size_t count_ = 0;
     double mean_ = 0, squares_ = 0;
 };

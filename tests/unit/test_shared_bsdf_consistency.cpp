@@ -1,0 +1,242 @@
+// Every material of the list: sample, eval and pdf tell one story; reciprocity; energy.
+#include <catch2/catch.hpp>
+
+#include "tests/support/materials.h"
+#include "tests/support/statistics.h"
+
+using namespace parhelion;
+using namespace parhelion::test;
+
+namespace {
+
+/// What a rounding of wi by one epsilon can change, first order, in double: of f cos / pdf by
+/// channel, and of the logarithm of the pdf. It measures how well the question is posed: the half
+/// vector of opposite grazing directions is not.
+struct Sensitivity {
+    double quotient[3] = {0, 0, 0};
+    double log_pdf = 0;
+};
+
+Sensitivity sensitivity(const f64::Material& m, f64::vec3 wo, f64::vec3 wi, double epsilon) {
+    const double step = 1e-7;
+    Sensitivity s;
+    for (auto axis : {f64::v3(step, 0, 0), f64::v3(0, step, 0), f64::v3(0, 0, step)}) {
+        auto plus = bsdf_eval(m, wo, f64::add3(wi, axis)),
+             minus = bsdf_eval(m, wo, f64::sub3(wi, axis));
+        if (plus.pdf <= 0 || minus.pdf <= 0)
+            return {{INFINITY, INFINITY, INFINITY}, INFINITY}; // at a border
+        double scale = epsilon / (2 * step);
+        for (int k = 0; k < 3; k++)
+            s.quotient[k] +=
+                std::fabs(component(plus.f, k) / plus.pdf - component(minus.f, k) / minus.pdf) *
+                scale;
+        s.log_pdf += std::fabs(std::log(plus.pdf / minus.pdf)) * scale;
+    }
+    return s;
+}
+
+/// Largest deviations over all angles and samples of a material, in units of (epsilon +
+/// sensitivity).
+struct Deviations {
+    Worst weight;  // of weight from f cos / pdf
+    Worst density; // of the logarithm of sample's pdf from that of eval's
+    int lost = 0, border = 0,
+        samples = 0; // samples that eval does not know; those within a rounding of a border
+};
+
+template<class P>
+Deviations measure(const MaterialCase& c) {
+    using Real = typename P::Real;
+    const double epsilon = std::numeric_limits<Real>::epsilon();
+    Deviations d;
+    auto m = make_material<P>(c);
+    auto m64 = make_material<F64>(c);
+    Random random(11);
+    for (f32::vec3 w : viewer_directions(c)) {
+        auto wo = vec_as<P>(w);
+        for (int n = 0; n < 3000; n++) {
+            auto s = bsdf_sample(m, wo, random.square<P>(), Real(random.unit()));
+            if (!(s.pdf > 0) || std::isinf(s.pdf)) continue;
+            auto e = bsdf_eval(m, wo, s.wi);
+            Sensitivity allowed = sensitivity(m64, vec_as<F64>(wo), vec_as<F64>(s.wi), epsilon);
+            d.samples++;
+            d.border += std::isinf(allowed.log_pdf);
+            d.lost += !(e.pdf > 0) && std::isfinite(allowed.log_pdf);
+            if (!(e.pdf > 0)) continue;
+            for (int k = 0; k < 3; k++) {
+                double weight = component(s.weight, k),
+                       quotient = component(e.f, k) / double(e.pdf);
+                d.weight.add(std::fabs(quotient - weight) /
+                             (epsilon * weight + allowed.quotient[k] + 1e-30));
+            }
+            d.density.add(std::fabs(std::log(double(e.pdf) / double(s.pdf))) /
+                          (epsilon + allowed.log_pdf));
+        }
+    }
+    return d;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("Materials: weight = f cos / pdf", "[bsdf]", F32, F64) {
+    for (const MaterialCase& c : material_cases()) {
+        Deviations d = measure<TestType>(c);
+        INFO(c.name << ": " << d.samples << " samples");
+        CHECK(d.lost == 0);
+        CHECK(d.border <= d.samples / 1000);
+        CHECK(d.weight.value() <= 16);
+        CHECK(d.density.value() <= 16);
+    }
+}
+
+TEMPLATE_TEST_CASE("Materials: delta lobes have no value and an infinite density", "[bsdf]", F32,
+                   F64) {
+    using Real = typename TestType::Real;
+    Random random(12);
+    int kinds = 0;
+    for (const MaterialCase& c : material_cases()) {
+        auto m = make_material<TestType>(c);
+        for (f32::vec3 w : viewer_directions(c)) {
+            auto wo = vec_as<TestType>(w);
+            if (!is_delta<TestType>(m, wo)) continue;
+            kinds++;
+            for (int n = 0; n < 100; n++) {
+                auto s = bsdf_sample(m, wo, random.square<TestType>(), Real(random.unit()));
+                INFO(c.name << ", cosine " << w.z);
+                CHECK(std::isinf(s.pdf));
+                CHECK(double(length3(s.wi)) == Approx(1).epsilon(1e-6));
+                for (auto wi : {s.wi, random.direction<TestType>()}) {
+                    auto e = bsdf_eval(m, wo, wi);
+                    CHECK((e.pdf == 0 && e.f.x == 0 && e.f.y == 0 && e.f.z == 0));
+                }
+            }
+        }
+    }
+    CHECK(kinds > 0);
+}
+
+namespace {
+
+/// f |cos wi| / |cos wi|, times the square of the relative index that a path from wo to wi crosses:
+/// symmetric in wo and wi but for that square, which is `index`^2 one way and 1 the other.
+template<class M, class V>
+double symmetric_value(const M& m, const MaterialCase& c, V wo, V wi, int channel) {
+    double scale = wo.z > 0 && wi.z < 0 ? f64::square(c.index) : 1;
+    return component(bsdf_eval(m, wo, wi).f, channel) / std::fabs(double(wi.z)) * scale;
+}
+
+/// What a rounding of both directions by one epsilon can change in the logarithm of that value,
+/// first order, in double.
+double log_sensitivity(const f64::Material& m, const MaterialCase& c, f64::vec3 wo, f64::vec3 wi,
+                       int channel) {
+    const double step = 1e-7;
+    double sum = 0;
+    for (auto axis : {f64::v3(step, 0, 0), f64::v3(0, step, 0), f64::v3(0, 0, step)}) {
+        double a = symmetric_value(m, c, wo, f64::add3(wi, axis), channel);
+        double b = symmetric_value(m, c, wo, f64::sub3(wi, axis), channel);
+        double d = symmetric_value(m, c, f64::add3(wo, axis), wi, channel);
+        double e = symmetric_value(m, c, f64::sub3(wo, axis), wi, channel);
+        if (!(a > 0 && b > 0 && d > 0 && e > 0)) return INFINITY; // at a border
+        sum += (std::fabs(std::log(a / b)) + std::fabs(std::log(d / e))) / (2 * step);
+    }
+    return sum;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE(
+    "Materials: reciprocity; across an interface with the square of the relative index", "[bsdf]",
+    F32, F64) {
+    const double epsilon = std::numeric_limits<typename TestType::Real>::epsilon();
+    Random random(13);
+    int reflections = 0, transmissions = 0;
+    for (const MaterialCase& c : material_cases()) {
+        auto m = make_material<TestType>(c);
+        auto m64 = make_material<F64>(c);
+        Worst worst;
+        for (int n = 0; n < 20000; n++) {
+            auto wo = random.direction<TestType>(), wi = random.direction<TestType>();
+            int k = n % 3;
+            double f = symmetric_value(m, c, wo, wi, k), g = symmetric_value(m, c, wi, wo, k);
+            if (std::max(f, g) < 1e-30)
+                continue; // none, or far in the tail of a sharp lobe: denormal in float
+            double allowed = log_sensitivity(m64, c, vec_as<F64>(wo), vec_as<F64>(wi), k);
+            // Near the critical angle the cosine beyond comes from a difference, which costs the
+            // square.
+            worst.add(std::fabs(f - g) / std::max(f, g) / epsilon /
+                      (1 + allowed + allowed * allowed));
+            (wo.z * wi.z > 0 ? reflections : transmissions)++;
+        }
+        INFO(c.name);
+        CHECK(worst.value() <= 16);
+    }
+    CHECK(reflections > 1000);
+    CHECK(transmissions > 1000);
+}
+
+TEST_CASE("Materials: white furnace: nothing gives more energy than it receives", "[bsdf]") {
+    Random random(14);
+    for (const MaterialCase& c : material_cases()) {
+        auto m = make_material<F32>(c);
+        for (f32::vec3 wo : viewer_directions(c)) {
+            Mean energy[3];
+            for (int n = 0; n < 20000; n++) {
+                auto s = bsdf_sample(m, wo, random.square<F32>(), float(random.unit()));
+                // Radiance scaled at the interface is turned back into power.
+                auto power = f32::scale3(s.weight, s.eta * s.eta);
+                for (int k = 0; k < 3; k++)
+                    energy[k].add(component(power, k));
+            }
+            INFO(c.name << ", cosine " << wo.z);
+            bool exact = c.lossless && (is_delta<F32>(m, wo) || c.kind == material_diffuse);
+            for (int k = 0; k < 3; k++) {
+                CHECK(energy[k].mean() <= 1 + 3 * energy[k].error() + 1e-6);
+                if (exact) CHECK(energy[k].mean() == Approx(1).epsilon(1e-6));
+                CHECK(energy[k].mean() >= 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("Materials: an interface reflects and transmits in the proportion of Fresnel's formulas",
+          "[bsdf]") {
+    Random random(15);
+    MaterialCase c = material_cases()[0];
+    c.transparent = true;
+    c.kind = material_dielectric;
+    auto m = make_material<F32>(c);
+    for (f32::vec3 wo : viewer_directions(c)) {
+        f32::Fresnel f = fresnel_dielectric(std::fabs(wo.z), material_interface(m, wo.z > 0));
+        CHECK(double(f.reflectance) + f.transmittance == Approx(1).epsilon(1e-6));
+        const int count = 100000;
+        int reflected = 0;
+        for (int n = 0; n < count; n++) {
+            auto s = bsdf_sample(m, wo, random.square<F32>(), float(random.unit()));
+            reflected += s.wi.z * wo.z > 0;
+            CHECK(s.eta == (s.wi.z * wo.z > 0 ? 1 : wo.z > 0 ? m.er : m.eg));
+        }
+        double r = f.reflectance, sigma = std::sqrt(std::max(r * (1 - r), 1e-9) / count);
+        CHECK(std::fabs(double(reflected) / count - r) <= 4 * sigma);
+    }
+}
+
+TEST_CASE("Materials: at the ends of the unit interval samples are finite with a positive density, "
+          "or absent",
+          "[bsdf]") {
+    const float ends[] = {0, 0.5f, 1 - 0x1p-24f};
+    for (const MaterialCase& c : material_cases()) {
+        auto m = make_material<F32>(c);
+        for (f32::vec3 wo : viewer_directions(c))
+            for (float u : ends)
+                for (float v : ends)
+                    for (float lobe : ends) {
+                        auto s = bsdf_sample(m, wo, {u, v}, lobe);
+                        INFO(c.name << ", cosine " << wo.z << ", u " << u << " " << v << " "
+                                    << lobe);
+                        CHECK(f32::finite3(s.weight));
+                        CHECK(f32::finite3(s.wi));
+                        CHECK(!std::isnan(s.pdf));
+                        CHECK((s.pdf > 0 || f32::max_component(s.weight) == 0));
+                    }
+    }
+}
