@@ -57,15 +57,16 @@ def continued_fraction(a, b, x, terms=300):
     return h
 
 
-def welch(a, b):
+def welch(a, b, floor=0.0):
     """Welch's test of stacks a and b (first axis: independent renders).
 
+    floor: smallest variance of the difference of the means that is believed.
     Returns difference of the means, its standard error, p-value.
     """
     mean_a, mean_b = a.mean(0), b.mean(0)
     var_a, var_b = a.var(0, ddof=1) / len(a), b.var(0, ddof=1) / len(b)
     rounding = (ROUNDING * np.maximum(np.abs(mean_a), np.abs(mean_b))) ** 2
-    error = np.sqrt(var_a + var_b + rounding)
+    error = np.sqrt(np.maximum(var_a + var_b, floor) + rounding)
     with np.errstate(divide="ignore", invalid="ignore"):
         df = (var_a + var_b + rounding) ** 2 / (var_a**2 / (len(a) - 1) + var_b**2 / (len(b) - 1))
         t = np.abs(mean_b - mean_a) / error
@@ -88,16 +89,20 @@ def sidak(values):
     return 1 - (1 - ALPHA) ** (1 / values)
 
 
-def compare_channel(reference, image):
-    """Tests one channel, stacks (S, H, W) in double; the key "pass" holds the verdict."""
+def compare_channel(reference, image, samples):
+    """Tests one channel, stacks (S, H, W) in double; the key "pass" holds the verdict.
+
+    samples: samples a pixel in all, of the reference and of the image.
+    """
     finite = np.isfinite(image).all() and np.isfinite(reference).all()
     if not finite:
         return {"pass": False, "non_finite": int(np.count_nonzero(~np.isfinite(image)))}
-    difference, error, p = welch(reference, image)
+    floor = VARIANCE_FLOOR * sum(1 / n for n in samples)
+    difference, error, p = welch(reference, image, floor)
     failing = p < sidak(p.size)
     with np.errstate(divide="ignore", invalid="ignore"):
         z = np.where(error > 0, difference / error, 0)
-    tile_p = welch(tiles(reference), tiles(image))[2]
+    tile_p = welch(tiles(reference), tiles(image), floor / TILE**2)[2]
     tiles_failing = int(np.count_nonzero(tile_p < sidak(tile_p.size)))
     mean_difference, mean_error, mean_p = welch(reference.mean((1, 2)), image.mean((1, 2)))
     scale = abs(reference.mean()) or 1.0
@@ -127,7 +132,7 @@ def compare_channel(reference, image):
     }
 
 
-def compare_images(reference, image):
+def compare_images(reference, image, samples):
     """Both: channel name -> stack (S, H, W). A channel that only one of them has is a failure."""
     result = {}
     for name in sorted(set(reference) | set(image)):
@@ -142,5 +147,5 @@ def compare_images(reference, image):
                 "sizes": [reference[name].shape[1:], image[name].shape[1:]],
             }
         else:
-            result[name] = compare_channel(reference[name], image[name])
+            result[name] = compare_channel(reference[name], image[name], samples)
     return result
