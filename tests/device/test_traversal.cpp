@@ -1,0 +1,147 @@
+// The kernels `intersect` and `shadow` find what trying every primitive finds, to the bit.
+#include "tests/support/traversal.h"
+
+#include "host/scene/mesh_obj.h"
+#include "tests/unit/test_bvh_shapes.h"
+
+#include <filesystem>
+
+using namespace parhelion;
+using namespace parhelion::test;
+using bvh_test::Primitives;
+
+namespace {
+
+std::vector<bvh_test::Ray> rays_for(int count, unsigned seed) {
+    bvh_test::Random random(seed);
+    std::vector<bvh_test::Ray> rays;
+    for (int i = 0; i < count; i++)
+        rays.push_back(bvh_test::random_ray(random, i));
+    return rays;
+}
+
+TestRay test_ray(const bvh_test::Ray& r) {
+    return {{r.origin[0], r.origin[1], r.origin[2]},
+            {r.direction[0], r.direction[1], r.direction[2]}};
+}
+
+/// Misses of the oracle: rays whose distance (to the bit), primitive or occlusion differ.
+struct Differences {
+    int hits = 0, t = 0, primitive = 0, occlusion = 0;
+};
+
+Differences differences(const Traversal& traversal, const std::vector<bvh_test::Ray>& rays,
+                        const std::vector<bvh_test::Hit>& truth) {
+    std::vector<TestRay> test_rays;
+    for (const bvh_test::Ray& r : rays)
+        test_rays.push_back(test_ray(r));
+    std::vector<TestHit> hits = traversal.closest(test_rays);
+    std::vector<bool> occluded = traversal.occluded(test_rays);
+    Differences d;
+    for (std::size_t i = 0; i < rays.size(); i++) {
+        d.hits += truth[i].primitive >= 0;
+        d.t += std::bit_cast<std::uint32_t>(hits[i].t) != std::bit_cast<std::uint32_t>(truth[i].t);
+        d.primitive += hits[i].primitive != truth[i].primitive;
+        d.occlusion += occluded[i] != (truth[i].primitive >= 0);
+    }
+    return d;
+}
+
+struct Soup {
+    std::string name;
+    Primitives primitives;
+    std::vector<bvh_test::Ray> rays;
+    std::vector<bvh_test::Hit> truth;
+    Bvh bvh;
+    int root;
+
+    Soup(const std::string& name, const Primitives& primitives, int ray_count)
+        : name(name), primitives(primitives), rays(rays_for(ray_count, 77)) {
+        for (const bvh_test::Ray& r : rays)
+            truth.push_back(bvh_test::brute_force(primitives, r));
+        root = bvh_append(bvh, primitives);
+    }
+};
+
+void check_soups(const std::vector<Soup>& soups) {
+    TestDevice d;
+    for (const Variant& variant : variants) {
+        Traversal traversal(d, variant);
+        for (const Soup& soup : soups) {
+            CAPTURE(variant.name(), soup.name);
+            traversal.upload(soup.bvh, soup.root);
+            Differences found = differences(traversal, soup.rays, soup.truth);
+            CHECK(found.hits > static_cast<int>(soup.rays.size()) / 100);
+            CHECK(found.hits < static_cast<int>(soup.rays.size()));
+            CHECK(found.t == 0);
+            CHECK(found.primitive == 0);
+            CHECK(found.occlusion == 0);
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE(
+    "Traversal on the device equals brute force on soups, spheres, disks and degenerate meshes",
+    "[device]") {
+    std::vector<Soup> soups;
+    soups.emplace_back("one triangle",
+                       Primitives{bvh_test::triangle({-1, -1, 0}, {1, -1, .1f}, {0, 1, .2f})},
+                       20000);
+    soups.emplace_back("small triangles", bvh_test::random_triangles(2000, .1f), 4000);
+    soups.emplace_back("large triangles", bvh_test::random_triangles(500, 1.f), 4000);
+    soups.emplace_back("spheres, disks, triangles", bvh_test::random_mixture(900), 6000);
+    soups.emplace_back("grid", bvh_test::grid(20, .25f), 6000);
+    soups.emplace_back("needles", bvh_test::needles(1000), 6000);
+    soups.emplace_back("the same forty times",
+                       bvh_test::repeated(bvh_test::random_triangles(50, .5f), 40), 5000);
+    check_soups(soups);
+}
+
+TEST_CASE("Traversal on the device equals brute force on the bunny", "[device]") {
+    std::filesystem::path file = "/usr/share/glmark2/models/bunny.obj";
+    if (!std::filesystem::exists(file)) {
+        WARN("skipped: no " << file << " (Debian package glmark2-data)");
+        return;
+    }
+    MeshData mesh = load_obj(file, true, {});
+    Primitives primitives;
+    auto at = [&](unsigned i) {
+        glm::vec3 p(mesh.positions[i]);
+        return bvh_test::Vector{p.x, p.y, p.z};
+    };
+    for (const glm::uvec3& t : mesh.triangles)
+        primitives.push_back(bvh_test::triangle(at(t.x), at(t.y), at(t.z)));
+    std::vector<Soup> soups;
+    soups.emplace_back("bunny", primitives, 600);
+    check_soups(soups);
+}
+
+TEST_CASE("A ray does not meet the primitive it leaves, nor anything beyond its end", "[device]") {
+    TestDevice d;
+    Primitives primitives =
+        bvh_test::repeated({bvh_test::triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0})}, 2);
+    primitives.push_back(bvh_test::triangle({-1, -1, 1}, {1, -1, 1}, {0, 1, 1}));
+    Bvh bvh;
+    int root = bvh_append(bvh, primitives);
+    const float infinity = std::numeric_limits<float>::infinity();
+    std::vector<TestRay> rays = {
+        {{0, 0, -1}, {0, 0, 1}, infinity, -1}, {{0, 0, -1}, {0, 0, 1}, infinity, 0},
+        {{0, 0, 0}, {0, 0, 1}, infinity, -1},  {{0, 0, -1}, {0, 0, 1}, .999f, -1},
+        {{0, 0, -1}, {0, 0, 1}, 1.f, -1},      {{0, 0, .5f}, {0, 0, 2}, infinity, 2}};
+    const int expected[] = {0, 1, 2, -1, 0, -1};
+    const float distance[] = {1, 1, 1, .999f, 1, infinity};
+    for (const Variant& variant : variants) {
+        Traversal traversal(d, variant);
+        traversal.upload(bvh, root);
+        std::vector<TestHit> hits = traversal.closest(rays);
+        std::vector<bool> occluded = traversal.occluded(rays);
+        for (std::size_t i = 0; i < rays.size(); i++) {
+            CAPTURE(variant.name(), i);
+            CHECK(hits[i].primitive == expected[i]);
+            CHECK(hits[i].t == distance[i]);
+            CHECK(occluded[i] == (expected[i] >= 0));
+        }
+    }
+}

@@ -1,0 +1,153 @@
+// For the device tests: many rays at once through the kernels `intersect` and `shadow`, on path and
+// shadow states filled by hand.
+#pragma once
+
+#include "host/bvh/bvh.h"
+#include "host/render/device_scene.h"
+#include "tests/support/device.h"
+
+#include <sys/types.h> // ulong, as the kernels call it
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <span>
+
+namespace parhelion::test {
+
+struct TestRay {
+    float origin[3], direction[3];
+    float t_max = std::numeric_limits<float>::infinity();
+    int excluded = -1;
+};
+
+struct TestHit {
+    float t, b1, b2;
+    int primitive; ///< -1: nothing
+};
+
+/// A tree on the device, and the two kernels that walk it.
+class Traversal {
+public:
+    Traversal(const TestDevice& d, const Variant& variant,
+              std::uint64_t features = ~std::uint64_t{0})
+        : d_(d), closest_(d.context, d.device, ProgramCache({}), "intersect.cl",
+                          options(variant, features)),
+          any_(d.context, d.device, ProgramCache({}), "shadow.cl", options(variant, features)) {}
+
+    void upload(const Bvh& bvh, int root) {
+        nodes_ = Buffer<BvhNode>(d_.context, d_.queue, "nodes", bvh.nodes.data(), bvh.nodes.size());
+        leaves_ =
+            Buffer<BvhLeaf>(d_.context, d_.queue, "leaves", bvh.leaves.data(), bvh.leaves.size());
+        root_ = root;
+    }
+
+    std::vector<TestHit> closest(std::span<const TestRay> rays) const {
+        Sizes s(rays.size());
+        std::vector<float> state(path_field_count * s.stride());
+        for (std::size_t i = 0; i < rays.size(); i++) {
+            const TestRay& r = rays[i];
+            const float values[] = {r.origin[0],    r.origin[1],    r.origin[2], r.direction[0],
+                                    r.direction[1], r.direction[2], r.t_max};
+            for (std::size_t k = 0; k < std::size(values); k++)
+                state[k * s.stride() + i] = values[k];
+            state[path_excluded * s.stride() + i] = std::bit_cast<float>(r.excluded);
+        }
+        Buffer<float> path_state = device_copy(d_, "path_state", state);
+        run(closest_, s, path_state, path_state, path_state);
+        state = host_copy(d_, path_state);
+        std::vector<TestHit> hits(rays.size());
+        for (std::size_t i = 0; i < rays.size(); i++) {
+            auto word = [&](int field) { return state[field * s.stride() + i]; };
+            hits[i] = {word(path_t), word(path_b1), word(path_b2),
+                       std::bit_cast<int>(word(path_primitive))};
+        }
+        return hits;
+    }
+
+    /// Whether something is in the way: ray i carries the radiance (1, 2, 4) to slot i.
+    std::vector<bool> occluded(std::span<const TestRay> rays) const {
+        Sizes s(rays.size());
+        std::vector<float> state(shadow_field_count * s.stride());
+        for (std::size_t i = 0; i < rays.size(); i++) {
+            const TestRay& r = rays[i];
+            const float values[] = {r.origin[0],
+                                    r.origin[1],
+                                    r.origin[2],
+                                    r.direction[0],
+                                    r.direction[1],
+                                    r.direction[2],
+                                    r.t_max,
+                                    1,
+                                    2,
+                                    4};
+            for (std::size_t k = 0; k < std::size(values); k++)
+                state[k * s.stride() + i] = values[k];
+            state[shadow_slot * s.stride() + i] = std::bit_cast<float>(static_cast<int>(i));
+            state[shadow_excluded * s.stride() + i] = std::bit_cast<float>(r.excluded);
+        }
+        Buffer<float> shadow_state = device_copy(d_, "shadow_state", state);
+        Buffer<float> results(d_.context, "results", result_field_count * s.stride());
+        results.fill_zero(d_.queue);
+        run(any_, s, shadow_state, shadow_state, results);
+        std::vector<float> found = host_copy(d_, results);
+        std::vector<bool> blocked(rays.size());
+        for (std::size_t i = 0; i < rays.size(); i++) {
+            float r = found[i], g = found[s.stride() + i], b = found[2 * s.stride() + i];
+            blocked[i] = r == 0;
+            if (g != 2 * r || b != 4 * r || (r != 0 && r != 1))
+                throw std::runtime_error("wrong radiance arrived");
+        }
+        return blocked;
+    }
+
+private:
+    static constexpr int segment = 2048;
+    struct Sizes {
+        std::size_t rays, segments;
+        explicit Sizes(std::size_t n) : rays(n), segments((n + segment - 1) / segment) {}
+        std::size_t stride() const { return segments * segment; }
+    };
+
+    static ProgramOptions options(const Variant& variant, std::uint64_t features) {
+        return {variant.lanes, features, variant.portable};
+    }
+
+    void run(const Program& program, const Sizes& s, const Buffer<float>& path_state,
+             const Buffer<float>& shadow_state, const Buffer<float>& results) const {
+        std::vector<int> counts(2 * s.segments);
+        for (std::size_t i = 0; i < counts.size(); i++)
+            counts[i] = static_cast<int>(std::min<std::size_t>(segment, s.rays - i / 2 * segment));
+        Buffer<int> count_buffer = device_copy(d_, "counts", counts);
+        Buffer<ulong> statistics =
+            device_copy(d_, "statistics", std::vector<ulong>(statistic_count * s.segments));
+        Buffer<int> primitives, vertices, materials, lights, light_aliases,
+            filter_table; // not read by these kernels
+        RenderParams params{};
+        params.state_stride = params.path_capacity = static_cast<int>(s.stride());
+        params.segment_size = params.segment_stride = segment;
+        params.root = params.camera_root = root_;
+        cl::Kernel kernel = program.kernel();
+        cl_uint argument = 0;
+        for (const cl::Buffer& handle :
+             {nodes_.handle(), leaves_.handle(), primitives.handle(), vertices.handle(),
+              materials.handle(), lights.handle(), light_aliases.handle(), filter_table.handle(),
+              path_state.handle(), shadow_state.handle(), results.handle(), count_buffer.handle(),
+              statistics.handle(), results.handle()})
+            kernel.setArg(argument++, handle);
+        kernel.setArg(argument++, params);
+        kernel.setArg(argument++, WaveParams{});
+        kernel.setArg(argument++, 1);
+        d_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(s.segments),
+                                      cl::NDRange(1));
+        d_.queue.finish();
+    }
+
+    const TestDevice& d_;
+    Program closest_, any_;
+    Buffer<BvhNode> nodes_;
+    Buffer<BvhLeaf> leaves_;
+    int root_ = 0;
+};
+
+} // namespace parhelion::test
