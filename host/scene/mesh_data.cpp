@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace parhelion {
@@ -36,11 +37,35 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return 2.0 * std::atan2(glm::length(a - b), glm::length(a + b));
 }
 
-/// Fills the zero entries of `mesh.normals`; returns how many stay undefined by the average because
-/// the faces around the vertex cancel out (they get the normal of one face).
-std::size_t fill_normals(Mesh& mesh) {
-    std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));
-    std::vector<glm::dvec3> some_face(mesh.positions.size(), glm::dvec3(0.0));
+/// What the faces around a vertex say about its normal.
+struct NormalSum {
+    glm::dvec3 sum{0.0};
+    double weight = 0.0; ///< of all terms
+    unsigned terms = 0;
+    glm::dvec3 last{0.0}; ///< the normal of one of the faces
+
+    void add(const glm::dvec3& normal, double angle) {
+        sum += normal * angle;
+        weight += angle;
+        ++terms;
+        last = normal;
+    }
+
+    /// Faces that cancel out leave nothing but the rounding of the sum, which is no direction.
+    bool cancels() const {
+        const double rounding = (terms + 2.0) * std::numeric_limits<double>::epsilon() * weight;
+        return terms > 0 && glm::length(sum) <= rounding;
+    }
+
+    /// A vertex of degenerate triangles only is never seen; any unit vector will do there.
+    glm::dvec3 normal() const {
+        if (terms == 0) return {0, 0, 1};
+        return cancels() ? last : direction_of(sum);
+    }
+};
+
+std::vector<NormalSum> sum_normals(const Mesh& mesh) {
+    std::vector<NormalSum> sums(mesh.positions.size());
     for (const glm::uvec3& t : mesh.triangles) {
         const glm::dvec3 n = geometric_normal(mesh, t);
         if (is_zero(n)) continue;
@@ -48,18 +73,21 @@ std::size_t fill_normals(Mesh& mesh) {
             const glm::dvec3 p = mesh.positions[t[i]];
             const glm::dvec3 d0 = direction_of(mesh.positions[t[(i + 1) % 3]] - p);
             const glm::dvec3 d1 = direction_of(mesh.positions[t[(i + 2) % 3]] - p);
-            sums[t[i]] += n * angle_between(d0, d1);
-            some_face[t[i]] = n;
+            sums[t[i]].add(n, angle_between(d0, d1));
         }
     }
+    return sums;
+}
+
+/// Fills the zero entries of `mesh.normals`; returns how many have no average to go by.
+std::size_t fill_normals(Mesh& mesh) {
+    if (std::none_of(mesh.normals.begin(), mesh.normals.end(), is_zero)) return 0;
+    const std::vector<NormalSum> sums = sum_normals(mesh);
     std::size_t cancelled = 0;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         if (!is_zero(mesh.normals[i])) continue;
-        mesh.normals[i] = direction_of(sums[i]);
-        if (!is_zero(mesh.normals[i])) continue;
-        cancelled += !is_zero(some_face[i]);
-        // A vertex of degenerate triangles only is never seen; any unit vector will do.
-        mesh.normals[i] = is_zero(some_face[i]) ? glm::dvec3(0, 0, 1) : some_face[i];
+        mesh.normals[i] = sums[i].normal();
+        cancelled += sums[i].cancels();
     }
     return cancelled;
 }

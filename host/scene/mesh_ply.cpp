@@ -33,6 +33,11 @@ public:
         return encoding_ == PlyEncoding::ascii ? next_word() : next_binary(type);
     }
 
+    bool has_more() const {
+        return encoding_ == PlyEncoding::ascii
+                   ? file_.find_first_not_of(" \t\r\n", offset_) != file_.npos
+                   : bytes_left() > 0;
+    }
     std::size_t bytes_left() const { return file_.size() - offset_; }
     const SourceLocation& place() const { return place_; }
 
@@ -249,6 +254,8 @@ MeshData load_ply(const std::filesystem::path& path, bool flip_v, const SourceLo
                                  " is not used");
         }
     }
+    if (data.has_more())
+        mesh.notes.push_back(file_place.file + ": data after the last element is not used");
     if (!faces) refuse(file_place, "the PLY file has no \"face\" element (points are not drawn)");
     return mesh;
 }
