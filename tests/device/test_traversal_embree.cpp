@@ -1,0 +1,171 @@
+// The kernel `intersect` agrees with Embree 3 in robust mode; what does not is at an edge, and
+// counted.
+#include "tests/support/traversal.h"
+
+#include "host/scene/mesh_obj.h"
+#include "tests/unit/test_bvh_shapes.h"
+
+#include <embree3/rtcore.h>
+
+#include <cmath>
+#include <filesystem>
+
+using namespace parhelion;
+using namespace parhelion::test;
+
+namespace {
+
+class EmbreeScene {
+public:
+    explicit EmbreeScene(const bvh_test::Primitives& primitives)
+        : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
+        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* corners = static_cast<float*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                    3 * sizeof(float), 3 * primitives.size()));
+        auto* numbers = static_cast<unsigned*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(unsigned), primitives.size()));
+        for (const PrimitiveRecord& p : primitives) {
+            for (float x : {p.ax, p.ay, p.az, p.bx, p.by, p.bz, p.cx, p.cy, p.cz})
+                *corners++ = x;
+        }
+        for (unsigned i = 0; i < 3 * primitives.size(); i++)
+            numbers[i] = i;
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene_, geometry);
+        rtcReleaseGeometry(geometry);
+        rtcCommitScene(scene_);
+    }
+    EmbreeScene(const EmbreeScene&) = delete;
+    ~EmbreeScene() {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+    }
+
+    TestHit closest(const TestRay& r) const {
+        RTCRayHit query{};
+        query.ray.org_x = r.origin[0], query.ray.org_y = r.origin[1], query.ray.org_z = r.origin[2];
+        query.ray.dir_x = r.direction[0], query.ray.dir_y = r.direction[1],
+        query.ray.dir_z = r.direction[2];
+        query.ray.tfar = r.t_max;
+        query.ray.mask = ~0u;
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcIntersect1(scene_, &context, &query);
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {r.t_max, 0, 0, -1};
+        return {query.ray.tfar, query.hit.u, query.hit.v, static_cast<int>(query.hit.primID)};
+    }
+
+private:
+    RTCDevice device_;
+    RTCScene scene_;
+};
+
+using Wide = std::array<double, 3>;
+Wide minus(const Wide& a, const Wide& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Wide cross(const Wide& a, const Wide& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Wide& a, const Wide& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// The plane of the triangle met in double precision: distance, the smallest barycentric, and how
+/// much a rounding error of the coordinates moves the distance, as a share of it.
+struct Truth {
+    double t, inside, sensitivity;
+};
+Truth truth(const PrimitiveRecord& p, const TestRay& r) {
+    Wide a{p.ax, p.ay, p.az}, b{p.bx, p.by, p.bz}, c{p.cx, p.cy, p.cz};
+    Wide o{r.origin[0], r.origin[1], r.origin[2]},
+        d{r.direction[0], r.direction[1], r.direction[2]};
+    Wide e1 = minus(b, a), e2 = minus(c, a), n = cross(e1, e2), to = minus(a, o);
+    double facing = dot(d, n), t = dot(to, n) / facing;
+    Wide q = cross(to, d);
+    double v = dot(e2, q) / facing, w = -dot(e1, q) / facing;
+    double size = std::sqrt(dot(n, n)) * std::sqrt(dot(to, to));
+    return {t, std::min({1 - v - w, v, w}), size / std::fabs(dot(to, n))};
+}
+
+/// Is the ray within rounding of the triangle's border?
+bool at_an_edge(const PrimitiveRecord& p, const TestRay& r) {
+    Truth found = truth(p, r);
+    return std::fabs(found.inside) < 1e-4 * found.sensitivity;
+}
+
+struct Agreement {
+    int hits = 0, hit_differs = 0, other_primitive = 0, not_ties = 0;
+    double ours = 0,
+           embrees = 0; ///< largest error of a distance against double, ulps over the sensitivity
+};
+
+void judge(const bvh_test::Primitives& primitives, const TestRay& ray, const TestHit& ours,
+           const TestHit& theirs, Agreement& a) {
+    auto of = [&](int i) -> const PrimitiveRecord& {
+        return primitives[static_cast<std::size_t>(i)];
+    };
+    if (ours.primitive >= 0 && ours.primitive == theirs.primitive) {
+        Truth exact = truth(of(ours.primitive), ray);
+        auto error = [&](float t) {
+            return std::fabs(t - exact.t) / (exact.t * 0x1p-24 * exact.sensitivity);
+        };
+        a.hits++;
+        a.ours = std::max(a.ours, error(ours.t));
+        a.embrees = std::max(a.embrees, error(theirs.t));
+        return;
+    }
+    if (ours.primitive == theirs.primitive) return;
+    if (ours.primitive < 0 || theirs.primitive < 0) {
+        a.hit_differs++;
+        a.not_ties += !at_an_edge(of(std::max(ours.primitive, theirs.primitive)), ray);
+        return;
+    }
+    a.other_primitive++;
+    // Neighbours that share the edge, or two surfaces at one distance.
+    bool edges = at_an_edge(of(ours.primitive), ray) || at_an_edge(of(theirs.primitive), ray);
+    a.not_ties += !(edges || std::fabs(ours.t - theirs.t) <= 1e-5f * theirs.t);
+}
+
+} // namespace
+
+TEST_CASE("Traversal on the device agrees with Embree on the bunny, but for ties", "[device]") {
+    std::filesystem::path file = "/usr/share/glmark2/models/bunny.obj";
+    if (!std::filesystem::exists(file)) {
+        WARN("skipped: no " << file << " (Debian package glmark2-data)");
+        return;
+    }
+    MeshData mesh = load_obj(file, true, {});
+    bvh_test::Primitives primitives;
+    auto at = [&](unsigned i) {
+        glm::vec3 p(mesh.positions[i]);
+        return bvh_test::Vector{p.x, p.y, p.z};
+    };
+    for (const glm::uvec3& t : mesh.triangles)
+        primitives.push_back(bvh_test::triangle(at(t.x), at(t.y), at(t.z)));
+    EmbreeScene embree(primitives);
+
+    bvh_test::Random random(123);
+    std::vector<TestRay> rays;
+    for (int i = 0; i < 100000; i++) {
+        bvh_test::Ray r = bvh_test::random_ray(random, i);
+        rays.push_back({{r.origin[0], r.origin[1], r.origin[2]},
+                        {r.direction[0], r.direction[1], r.direction[2]}});
+    }
+    TestDevice d;
+    Traversal traversal(d, variants[0]);
+    Bvh bvh;
+    int root = bvh_append(bvh, primitives);
+    traversal.upload(bvh, root);
+    std::vector<TestHit> hits = traversal.closest(rays);
+    Agreement a;
+    for (std::size_t i = 0; i < rays.size(); i++)
+        judge(primitives, rays[i], hits[i], embree.closest(rays[i]), a);
+    WARN("same primitive " << a.hits << ", one misses " << a.hit_differs << ", another primitive "
+                           << a.other_primitive << ", of these no ties " << a.not_ties
+                           << "; error of t: " << a.ours << ", Embree " << a.embrees);
+    CHECK(a.hits > 15000);
+    CHECK(a.hit_differs + a.other_primitive < 100);
+    CHECK(a.not_ties == 0);
+    CHECK(a.ours < 8);
+}
