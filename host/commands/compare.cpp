@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 

@@ -3,11 +3,13 @@
 
 #include "host/image/comparison.h"
 
-#include <CLI/CLI.hpp>
-
 #include <iosfwd>
 #include <optional>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace parhelion {
 

@@ -4,6 +4,7 @@
 #include "host/cl/self_test.h"
 #include "host/error.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

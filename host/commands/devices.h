@@ -1,7 +1,9 @@
 // `parhelion devices`: what there is to render on, and whether it works.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace parhelion {
 

@@ -5,6 +5,7 @@
 #include "host/render/device_scene.h"
 #include "host/scene/load.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,9 @@
 // `parhelion info`: what is in a scene, and what its kernels will have.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace parhelion {
 

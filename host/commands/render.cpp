@@ -8,7 +8,9 @@
 #include "host/scene/load.h"
 #include "parhelion_version.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
 #include <chrono>

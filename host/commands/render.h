@@ -3,11 +3,13 @@
 
 #include "host/render/path_tracer.h"
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace parhelion {
 

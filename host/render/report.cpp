@@ -1,6 +1,7 @@
 // What a render did and what it cost, for people and for scripts.
 #include "host/render/report.h"
 
+#include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // What a render did and what it cost, for people and for scripts.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <string>
