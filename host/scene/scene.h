@@ -153,7 +153,7 @@ using Emitter = std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, Cons
 enum class FovAxis { x, y, diagonal, smaller, larger };
 
 /// Pinhole or thin-lens camera. Camera space: looks along +z, +y is up, +x is to the LEFT of the image (Mitsuba's
-/// convention: to_world is rotation with determinant +1 and image x runs along camera -x).
+/// convention: to_world is a rotation and translation, in rare files with a mirror, and image x runs along camera -x).
 struct Camera {
     glm::dmat4 to_world{1.0};
     std::optional<double> fov_degrees;      ///< full angle along fov_axis; absent when focal_length_mm is given
@@ -175,7 +175,7 @@ struct ReconstructionFilter {
     FilterKind kind = FilterKind::gaussian;
     double radius = 0.0;       ///< tent; 0: the kind's default
     double stddev = 0.5;       ///< gaussian, pixels
-    double mitchell_a = 1.0 / 3.0, mitchell_b = 1.0 / 3.0; ///< Mitchell and Netravali's B and C
+    double mitchell_a = 1.0 / 3.0, mitchell_b = 1.0 / 3.0; ///< Mitchell and Netravali's B and C, named so in the file
     int lanczos_lobes = 3;
 };
 

@@ -111,8 +111,6 @@ TEST_CASE("scene plugins: the two sides of a surface") {
     const std::string one = "<bsdf type=\"diffuse\"/>", other = "<bsdf type=\"conductor\"/>";
     CHECK(sides("<bsdf type=\"twosided\">" + one + "</bsdf>") == std::pair(0, 0));
     CHECK(sides("<bsdf type=\"twosided\">" + one + other + "</bsdf>") == std::pair(0, 1));
-    CHECK(sides("<bsdf type=\"twosided\"><bsdf type=\"twosided\">" + one + "</bsdf></bsdf>") ==
-          std::pair(0, 0));
     const Scene named = with_bsdf("<bsdf type=\"twosided\" id=\"wall\">" + one + "</bsdf>");
     CHECK(named.materials[0].id == "wall");
 }

@@ -98,6 +98,7 @@ TEST_CASE("scene refusals: values out of range are refused with their line") {
         {bsdf("conductor", "<rgb name=\"eta\" value=\"-1 0 0\"/>"), "\"eta\" is -1"},
         {bsdf("twosided", "<bsdf type=\"dielectric\"/>"), "\"dielectric\""},
         {bsdf("twosided", "<bsdf type=\"null\"/>"), "\"null\""},
+        {bsdf("twosided", "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>"), "two sides"},
         {emitter("point", position + moved), "together"},
         {emitter("point", "<float name=\"sampling_weight\" value=\"0\"/>"), "greater than 0"},
         {emitter("spot", "<float name=\"cutoff_angle\" value=\"0\"/>"), "less than 180"},

@@ -253,3 +253,31 @@ TEST_CASE("scene xml: the file itself") {
     const SceneFolder folder;
     CHECK_THAT(refusal_of(folder.write("scene.txt", "")), Contains("accepted: .xml"));
 }
+
+TEST_CASE("scene xml: growth without end is refused") {
+    std::string doubling = "<default name=\"a0\" value=\"0123456789\"/>\n";
+    for (int i = 0; i < 60; ++i)
+        doubling += "<default name=\"a" + std::to_string(i + 1) + "\" value=\"$a" +
+                    std::to_string(i) + "-$a" + std::to_string(i) + "-\"/>\n";
+    CHECK_THAT(refusal_of_body(doubling), Contains("scene.xml:") && Contains("grows beyond"));
+
+    const SceneFolder folder;
+    std::string many;
+    for (int i = 0; i < 20; ++i)
+        many += "<include filename=\"many.xml\"/>\n";
+    folder.write("many.xml", "<scene version=\"3.0.0\">" + many + "</scene>");
+    CHECK_THAT(refusal_of(folder.write("scene.xml", scene_text(many))), Contains("deep"));
+    std::string wide;
+    for (int i = 0; i < 1001; ++i)
+        wide += "<include filename=\"empty.xml\"/>\n";
+    folder.write("empty.xml", "<scene version=\"3.0.0\"/>");
+    CHECK_THAT(refusal_of(folder.write("scene.xml", scene_text(wide))),
+               Contains("scene.xml:1002") && Contains("1000 files"));
+
+    std::string chain;
+    for (int i = 0; i < 100; ++i)
+        chain += "<integrator type=\"moment\" id=\"i" + std::to_string(i) + "\"><ref id=\"i" +
+                 std::to_string(i + 1) + "\"/></integrator>\n";
+    CHECK_THAT(refusal_of_body(chain + "<integrator type=\"path\" id=\"i100\"/>"),
+               Contains("64 deep"));
+}

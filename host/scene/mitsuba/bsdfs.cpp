@@ -161,7 +161,6 @@ SurfaceMaterials::Back back_of(const Bsdf& bsdf) {
     return one_sided ? SurfaceMaterials::Back::black : SurfaceMaterials::Back::same;
 }
 
-/// The front of each nested material; `twosided` around `twosided` changes nothing.
 SurfaceMaterials read_two_sided(Properties& p, const Document& document, Notes& notes) {
     const std::vector<const Child*> nested = p.children("bsdf");
     p.finish();
@@ -170,12 +169,15 @@ SurfaceMaterials read_two_sided(Properties& p, const Document& document, Notes& 
                fmt::format("{} holds {} bsdfs (accepted: 1 or 2)", p.title(), nested.size()));
     std::vector<Material> sides;
     for (const Child* const child : nested) {
-        SurfaceMaterials side = read_bsdf(document, p.target(*child), notes);
-        if (side.back_kind == SurfaceMaterials::Back::same &&
-            back_of(side.front.bsdf) == SurfaceMaterials::Back::same)
-            refuse(child->location, fmt::format("{} cannot hold the bsdf plugin {}, which light "
-                                                "passes through",
-                                                p.title(), in_quotes(p.target(*child).plugin)));
+        const Object& object = p.target(*child);
+        const auto refuse_nested = [&](const char* reason) {
+            refuse(child->location, fmt::format("{} cannot hold the bsdf plugin {}, {}", p.title(),
+                                                in_quotes(object.plugin), reason));
+        };
+        if (object.plugin == "twosided") refuse_nested("which has two sides already");
+        SurfaceMaterials side = read_bsdf(document, object, notes);
+        if (side.back_kind != SurfaceMaterials::Back::black)
+            refuse_nested("which light passes through");
         if (side.front.id.empty()) side.front.id = p.object().id;
         sides.push_back(std::move(side.front));
     }

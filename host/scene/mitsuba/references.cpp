@@ -7,6 +7,8 @@ namespace parhelion::mitsuba {
 
 namespace {
 
+constexpr std::size_t max_nesting = 64;
+
 void resolve(Document& document, const IdTable& ids) {
     for (Object& object : document.objects)
         for (Child& child : object.children) {
@@ -19,7 +21,8 @@ void resolve(Document& document, const IdTable& ids) {
         }
 }
 
-/// Depth first, without recursion.
+/// Depth first, without recursion; chains of references are kept short, because the readers of
+/// plugins follow them by recursion.
 void refuse_cycles(const Document& document) {
     enum class State { unseen, open, closed };
     struct Step {
@@ -44,6 +47,9 @@ void refuse_cycles(const Document& document) {
                 refuse(child.location, "the reference to " + in_quotes(child.reference) +
                                            " closes a circle: an object would contain itself");
             if (states[child.object] == State::closed) continue;
+            if (path.size() > max_nesting)
+                refuse(child.location, "objects refer to each other more than " +
+                                           std::to_string(max_nesting) + " deep");
             states[child.object] = State::open;
             path.push_back({child.object, 0});
         }

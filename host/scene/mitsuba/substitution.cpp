@@ -5,6 +5,13 @@
 
 namespace parhelion::mitsuba {
 
+namespace {
+
+/// Defaults made of defaults double in length with every line.
+constexpr std::size_t max_length = std::size_t(1) << 20;
+
+} // namespace
+
 std::string_view Substitution::longest_name(std::string_view text) const {
     std::string_view best;
     for (const auto& [name, value] : values_)
@@ -31,6 +38,9 @@ std::string Substitution::apply(std::string_view text, const SourceLocation& pla
             }
             result += values_.at(name);
             used_.insert(name);
+            if (result.size() > max_length)
+                refuse(place, "an attribute grows beyond " + std::to_string(max_length) +
+                                  " characters by its parameters");
             i += name.size();
         }
     }

@@ -15,6 +15,7 @@ namespace parhelion::mitsuba {
 namespace {
 
 constexpr int max_include_depth = 15;
+constexpr int max_includes = 1000;
 constexpr int max_nesting = 64;
 constexpr std::array<std::string_view, 14> object_tags = {
     "scene", "bsdf",    "emitter", "field",  "film",  "integrator", "medium",
@@ -84,6 +85,7 @@ private:
     Document document_;
     Substitution substitution_;
     IdTable ids_;
+    int includes_ = 0;
 };
 
 void Reader::substitute(const Source& source, pugi::xml_node node) {
@@ -183,6 +185,8 @@ void Reader::read_include(const Source& source, pugi::xml_node node, std::size_t
     if (source.include_depth >= max_include_depth)
         refuse(place,
                "files include each other more than " + std::to_string(max_include_depth) + " deep");
+    if (++includes_ > max_includes)
+        refuse(place, "more than " + std::to_string(max_includes) + " files are included");
     const XmlFile xml(document_.files.file(node.attribute("filename").value(), place), place);
     pugi::xml_node root = xml.root();
     if (!root.attribute("version"))
