@@ -130,7 +130,7 @@ void check_part(const ExrSource& source, const Imf::MultiPartInputFile& input, i
 }
 
 Image make_windows(const Imf::Header& header) {
-    const Imath::Box2i data = header.dataWindow(), display = header.displayWindow();
+    const Imath::Box2i &data = header.dataWindow(), &display = header.displayWindow();
     Image image;
     std::tie(image.width, image.height) = box_size(data);
     std::tie(image.full_width, image.full_height) = box_size(display);

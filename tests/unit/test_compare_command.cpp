@@ -5,9 +5,12 @@
 #include "host/image/srgb.h"
 #include "test_image_tools.h"
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <random>
 #include <sstream>
