@@ -78,9 +78,10 @@ FN Intersection intersect_disk(vec3 to_centre, vec3 direction, vec3 edge_u, vec3
 /// rounding never loses a box that the ray touches.
 #define BOX_WIDENING 1.00000024
 
-/// Does the ray meet a box before t_max? near and far are per axis already: (plane - origin) / direction.
+/// Does the ray meet a box before t_max? near and far are per axis already: (plane - origin) / direction. A ray that lies in a
+/// plane gives 0 / 0 there, which constrains nothing: minR and maxR take their second argument where the first is no number.
 FN Mask box_overlap(Real near_x, Real near_y, Real near_z, Real far_x, Real far_y, Real far_z, Real t_max) {
-    Real near = maxR(maxR(near_x, near_y), maxR(near_z, R(0.)));
-    Real far = minR(minR(far_x, far_y), minR(far_z, t_max));
+    Real near = maxR(near_x, maxR(near_y, maxR(near_z, R(0.))));
+    Real far = minR(far_x, minR(far_y, minR(far_z, t_max)));
     return near <= far * R(BOX_WIDENING);
 }
