@@ -8,13 +8,14 @@ import numpy as np
 # relative difference is counted as one standard error, per pixel and in the mean.
 ROUNDING = 1e-5
 
-ALPHA = (
-    0.01  # probability of a false alarm for a whole image, shared over its values by Sidak's rule
-)
+# Probability of a false alarm for a whole image, shared over its values by Sidak's rule.
+ALPHA = 0.01
 PIXELS_ALLOWED = 0.0025  # share of single values that may fail, as in Mitsuba's own render tests
-MEAN_ALPHA = (
-    0.001  # smallest p-value of a channel's mean that passes (there are some 200 channels in all)
-)
+# Smallest p-value of a channel's mean that passes (there are some 200 channels in all).
+MEAN_ALPHA = 0.001
+# Smallest variance of one sample that is believed: a pixel that few samples touch (the tail of a
+# filter) may show none in any seed. The value is that of Mitsuba's own render tests.
+VARIANCE_FLOOR = 1e-4
 TILE = 8  # pixels; the tiles' test has no such allowance and finds small local differences
 
 
