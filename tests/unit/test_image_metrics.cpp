@@ -257,6 +257,7 @@ TEST_CASE("z-test: XYZ statistics come back from their RGB disguise") {
     const auto variance = transform(xyz_to_srgb, spread);
     CHECK(variance[0] < 0.0); // why it cannot be tested as it is
     std::vector<TestedChannel> channels;
+    channels.reserve(3);
     for (int c = 0; c < 3; ++c)
         channels.push_back(
             {std::string(1, "RGB"[c]), {disguised[c]}, {disguised[c]}, {variance[c]}});
