@@ -19,8 +19,8 @@ FN ProbeOut out_emitter(EmitterSample s) {
     }
 EMITTERS(EMITTER_PROBE_FUNCTIONS)
 
-FN ProbeOut probe_any_sample(ProbeIn i) { return out_emitter(emitter_sample(in_Light(i, 0), in3(i, 16), in2(i, 19))); }
-FN ProbeOut probe_any_hit(ProbeIn i) {
+FN ProbeOut probe_any_emitter_sample(ProbeIn i) { return out_emitter(emitter_sample(in_Light(i, 0), in3(i, 16), in2(i, 19))); }
+FN ProbeOut probe_any_emitter_hit(ProbeIn i) {
     Light l = in_Light(i, 0);
     vec3 p = in3(i, 16);
     EmitterSample s = emitter_sample(l, p, in2(i, 19));
@@ -29,4 +29,4 @@ FN ProbeOut probe_any_hit(ProbeIn i) {
 }
 
 #define EMITTER_PROBES(name) PROBE(name##_sample, "lpuu", 17) PROBE(name##_hit, "lpuu", 2)
-#define PROBES EMITTERS(EMITTER_PROBES) PROBE(any_sample, "lpuu", 17) PROBE(any_hit, "lpuu", 4)
+#define PROBES EMITTERS(EMITTER_PROBES) PROBE(any_emitter_sample, "lpuu", 17) PROBE(any_emitter_hit, "lpuu", 4)
