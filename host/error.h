@@ -1,4 +1,5 @@
-// Errors a user can act on: every one is a single line that says where, what was found, and what is accepted.
+// Errors a user can act on: every one is a single line that says where, what was found, and what is
+// accepted.
 #pragma once
 
 #include <stdexcept>
@@ -7,15 +8,23 @@
 namespace parhelion {
 
 /// Process exit codes; documented in `parhelion --help` and kept stable for scripts.
-enum class ExitCode { ok = 0, different = 1, bad_input = 2, device_failure = 3, internal_failure = 4 };
+enum class ExitCode {
+    ok = 0,
+    different = 1,
+    bad_input = 2,
+    device_failure = 3,
+    internal_failure = 4
+};
 
-/// A scene, file, or command line that cannot be used. `what()` is one line, without a trailing newline.
+/// A scene, file, or command line that cannot be used. `what()` is one line, without a trailing
+/// newline.
 class InputError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// An OpenCL platform, device, compiler or launch that failed. `what()` is one line (a build log may follow on further lines).
+/// An OpenCL platform, device, compiler or launch that failed. `what()` is one line (a build log
+/// may follow on further lines).
 class DeviceError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -24,7 +33,8 @@ public:
 /// A place in a text file, printed as `file:line`.
 struct SourceLocation {
     std::string file;
-    int line = 0; ///< 1-based; 0 when the file has no lines (binary) or the value came from the command line
+    int line = 0; ///< 1-based; 0 when the file has no lines (binary) or the value came from the
+                  ///< command line
 
     std::string to_string() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
 };

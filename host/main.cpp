@@ -25,7 +25,8 @@ int run(int argc, char** argv) {
     CLI::App app{"Parhelion: a physically based renderer for the command line, on OpenCL"};
     app.require_subcommand(1);
     app.set_version_flag("--version", version_text);
-    app.footer("Exit codes: 0 done, 1 images differ (compare), 2 unusable input, 3 device failure, 4 internal failure.\n"
+    app.footer("Exit codes: 0 done, 1 images differ (compare), 2 unusable input, 3 device failure, "
+               "4 internal failure.\n"
                "Each subcommand has its own --help with examples.");
     int exit_code = 0;
     add_render_command(app);

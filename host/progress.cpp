@@ -13,11 +13,15 @@ namespace {
 constexpr std::chrono::milliseconds terminal_interval{100};
 constexpr std::chrono::seconds line_interval{5};
 
-double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+double seconds(std::chrono::steady_clock::duration d) {
+    return std::chrono::duration<double>(d).count();
+}
 
 std::string duration_text(double s) {
     if (s < 60.0) return fmt::format("{:.0f} s", s);
-    if (s < 3600.0) return fmt::format("{:.0f} min {:02.0f} s", std::floor(s / 60.0), s - 60.0 * std::floor(s / 60.0));
+    if (s < 3600.0)
+        return fmt::format("{:.0f} min {:02.0f} s", std::floor(s / 60.0),
+                           s - 60.0 * std::floor(s / 60.0));
     return fmt::format("{:.1f} h", s / 3600.0);
 }
 
@@ -48,15 +52,21 @@ void Progress::start(const std::string& stage) {
 void Progress::update(double fraction, const std::string& rate) {
     if (mode_ == Mode::quiet) return;
     Clock::time_point now = Clock::now();
-    if (mode_ == Mode::terminal ? now - printed_ < terminal_interval : now - printed_ < line_interval) return;
+    if (mode_ == Mode::terminal ? now - printed_ < terminal_interval
+                                : now - printed_ < line_interval)
+        return;
     double elapsed = seconds(now - started_);
-    std::string left = fraction > 0.0 ? ", " + duration_text(elapsed / fraction - elapsed) + " left" : "";
-    print(fmt::format("{}: {:.0f} %{}{}{}", stage_, 100.0 * fraction, rate.empty() ? "" : ", ", rate, left), false);
+    std::string left =
+        fraction > 0.0 ? ", " + duration_text(elapsed / fraction - elapsed) + " left" : "";
+    print(fmt::format("{}: {:.0f} %{}{}{}", stage_, 100.0 * fraction, rate.empty() ? "" : ", ",
+                      rate, left),
+          false);
 }
 
 void Progress::finish(const std::string& remark) {
     if (mode_ == Mode::quiet) return;
-    print(fmt::format("{}: {:.2f} s{}{}", stage_, seconds(Clock::now() - started_), remark.empty() ? "" : ", ", remark),
+    print(fmt::format("{}: {:.2f} s{}{}", stage_, seconds(Clock::now() - started_),
+                      remark.empty() ? "" : ", ", remark),
           true);
 }
 

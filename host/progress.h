@@ -6,7 +6,8 @@
 
 namespace parhelion {
 
-/// Stages and their percentages on standard error: one line rewritten on a terminal, plain lines elsewhere, nothing if quiet.
+/// Stages and their percentages on standard error: one line rewritten on a terminal, plain lines
+/// elsewhere, nothing if quiet.
 class Progress {
 public:
     enum class Mode { terminal, lines, quiet };
@@ -17,7 +18,8 @@ public:
 
     /// A new stage begins, e.g. "building the BVH".
     void start(const std::string& stage);
-    /// `fraction` of the stage is done, in [0, 1]; `rate` is a remark such as "2.1 Mpaths/s". Cheap enough to call often.
+    /// `fraction` of the stage is done, in [0, 1]; `rate` is a remark such as "2.1 Mpaths/s". Cheap
+    /// enough to call often.
     void update(double fraction, const std::string& rate);
     /// The stage is over, with a closing remark (may be empty).
     void finish(const std::string& remark);

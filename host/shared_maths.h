@@ -1,8 +1,9 @@
-// The kernels' shared maths as C++: namespace f32 is the device's arithmetic, f64 the same formulas in double.
+// The kernels' shared maths as C++: namespace f32 is the device's arithmetic, f64 the same formulas
+// in double.
 #pragma once
 
-#include "kernels/shared/types.h"
 #include "kernels/shared/features.h"
+#include "kernels/shared/types.h"
 
 #include <cmath>
 #include <cstdint>
@@ -10,7 +11,8 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter" // every BSDF and emitter has the same signature
 #ifdef __clang__
-#pragma GCC diagnostic ignored "-Wbitwise-instead-of-logical" // masks are vectors elsewhere: & and | only
+#pragma GCC diagnostic ignored                                                                     \
+    "-Wbitwise-instead-of-logical" // masks are vectors elsewhere: & and | only
 #pragma GCC diagnostic ignored "-Wunused-function"
 #endif
 

@@ -7,7 +7,8 @@
 #error "a packet must not be wider than a block of pixels"
 #endif
 
-/// Adds v to a sum kept as two floats (TwoSum, Knuth): the error of each addition is carried, so 1e9 samples do not drift.
+/// Adds v to a sum kept as two floats (TwoSum, Knuth): the error of each addition is carried, so
+/// 1e9 samples do not drift.
 FN void film_add(global float* sum, global float* error, Real v) {
     Real a = LOAD_REAL(sum);
     Real s = a + v;
@@ -17,8 +18,9 @@ FN void film_add(global float* sum, global float* error, Real v) {
     STORE_REAL(error, LOAD_REAL(error) + e);
 }
 
-/// Reads: results. Writes: film (one work-item owns a block of pixels), statistics (non-finite samples, dropped and counted).
-/// The samples of a pixel are added one by one in the order of their numbers, so the sum does not depend on the waves.
+/// Reads: results. Writes: film (one work-item owns a block of pixels), statistics (non-finite
+/// samples, dropped and counted). The samples of a pixel are added one by one in the order of their
+/// numbers, so the sum does not depend on the waves.
 kernel void accumulate(KERNEL_PARAMETERS) {
     int block = get_global_id(0);
     if (block >= wave.block_count) return;
@@ -32,8 +34,9 @@ kernel void accumulate(KERNEL_PARAMETERS) {
         for (int sample = 0; sample < wave.sample_count; sample++) {
             long slot = ((long)block * wave.sample_count + sample) * BLOCK_PIXELS + part;
             Real weight = LOAD_REAL(RESULT(result_weight) + slot);
-            vec3 radiance = v3(LOAD_REAL(RESULT(result_r) + slot), LOAD_REAL(RESULT(result_g) + slot),
-                               LOAD_REAL(RESULT(result_b) + slot));
+            vec3 radiance =
+                v3(LOAD_REAL(RESULT(result_r) + slot), LOAD_REAL(RESULT(result_g) + slot),
+                   LOAD_REAL(RESULT(result_b) + slot));
             Mask good = finite3(radiance);
             dropped += (uint)popcount(maskBits(!good));
             for (int c = 0; c < channels; c++) {
@@ -45,10 +48,12 @@ kernel void accumulate(KERNEL_PARAMETERS) {
                 for (int c = 0; c < 3; c++) {
                     Real v = square(LOAD_REAL(RESULT(c) + slot)) * weight;
                     film_add(sums + (long)(channels + c) * params.film_pixels,
-                             errors + (long)(channels + c) * params.film_pixels, sel(good, v, R(0.)));
+                             errors + (long)(channels + c) * params.film_pixels,
+                             sel(good, v, R(0.)));
                 }
             }
         }
     }
-    if (dropped) statistics[statistic_count * block + statistic_non_finite_samples] += (ulong)dropped;
+    if (dropped)
+        statistics[statistic_count * block + statistic_non_finite_samples] += (ulong)dropped;
 }

@@ -3,10 +3,13 @@
 #include "device/lanes_memory.h"
 #include "device/path_state.h"
 
-typedef struct { Real offset, weight; } FilterSample;
+typedef struct {
+    Real offset, weight;
+} FilterSample;
 
-/// Offset from the pixel's centre along one axis, distributed as the absolute value of the reconstruction filter
-/// (filter importance sampling, Ernst, Stamminger and Greiner 2006): a sample then belongs to one pixel only.
+/// Offset from the pixel's centre along one axis, distributed as the absolute value of the
+/// reconstruction filter (filter importance sampling, Ernst, Stamminger and Greiner 2006): a sample
+/// then belongs to one pixel only.
 FN FilterSample filter_sample(global const FilterBin* table, int bins, Real u) {
     FilterSample s;
     s.offset = u - .5f;
@@ -29,7 +32,8 @@ FN Camera camera_lanes(CameraRecord record) {
     return c;
 }
 
-/// Reads: camera, filter table. Writes: results (cleared), counts, path state. Pushes: one path a valid pixel and sample.
+/// Reads: camera, filter table. Writes: results (cleared), counts, path state. Pushes: one path a
+/// valid pixel and sample.
 kernel void generate(KERNEL_PARAMETERS) {
     int segment = get_global_id(0);
     int first = segment * params.segment_size;
@@ -48,17 +52,28 @@ kernel void generate(KERNEL_PARAMETERS) {
         x += params.crop_x;
         y += params.crop_y;
         Int pixel = y * params.film_width + x;
-        Random4 random = random4(asUint(pixel), (Uint)(uint)sample, (Uint)(uint)dimension_camera, (Uint)(uint)params.seed);
+        Random4 random = random4(asUint(pixel), (Uint)(uint)sample, (Uint)(uint)dimension_camera,
+                                 (Uint)(uint)params.seed);
         FilterSample fx = filter_sample(filter_table, params.filter_bins, uniform01(random.x));
         FilterSample fy = filter_sample(filter_table, params.filter_bins, uniform01(random.y));
         vec2 film_position = v2(toReal(x) + .5f + fx.offset, toReal(y) + .5f + fy.offset);
+        Real weight = fx.weight * fy.weight;
+        if (HAS(reconstruction_filter) && !params.sample_border) {
+            // A wide filter reaches over the edge of the film: what lies there is no part of the
+            // picture.
+            Mask on_film =
+                (film_position.x >= 0.f) & (film_position.x <= (float)params.film_width) &
+                (film_position.y >= 0.f) & (film_position.y <= (float)params.film_height);
+            valid = valid & on_film;
+            weight = sel(on_film, weight, R(0.));
+        }
         vec2 lens = v2(R(0.), R(0.));
         if (HAS(thin_lens)) lens = disk_uniform(uniform2(random.z, random.w));
         CameraRay ray = camera_ray(camera, film_position, lens);
 
         for (int channel = 0; channel < result_field_count + params.aov_channels; channel++)
             STORE_REAL(RESULT(channel) + slot, (Real)0.f);
-        STORE_REAL(RESULT(result_weight) + slot, fx.weight * fy.weight);
+        STORE_REAL(RESULT(result_weight) + slot, weight);
 
         uint bits = maskBits(valid);
         PATH_PACK_REAL(ox, ray.origin.x);

@@ -1,7 +1,8 @@
 // Self-test: a kernel whose results are known exactly, to see whether a device computes at all.
 #include "device/device.h"
 
-/// out[i] = i * i / 4 + 1, exact in single precision for i < 2048; element i + n is sqrt(i * i) = i.
+/// out[i] = i * i / 4 + 1, exact in single precision for i < 2048; element i + n is sqrt(i * i) =
+/// i.
 kernel void self_test(global float* out, int n) {
     int i = get_global_id(0);
     float x = (float)i;

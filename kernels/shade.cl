@@ -12,7 +12,8 @@ typedef struct {
     Mask active, hit;
 } PathVertex;
 
-FN PathVertex load_vertex_state(global const float* path_state, RenderParams params, int at, int left) {
+FN PathVertex load_vertex_state(global const float* path_state, RenderParams params, int at,
+                                int left) {
     PathVertex v;
     v.active = active_lanes(left);
     v.origin = v3(PATH_LOAD_REAL(ox), PATH_LOAD_REAL(oy), PATH_LOAD_REAL(oz));
@@ -26,7 +27,8 @@ FN PathVertex load_vertex_state(global const float* path_state, RenderParams par
     v.slot = PATH_LOAD_INT(slot);
     v.pixel = PATH_LOAD_INT(pixel);
     v.sample = PATH_LOAD_INT(sample);
-    // Lanes behind the last path hold leftovers: they count as misses, and primitive 0 stands in for what they hit.
+    // Lanes behind the last path hold leftovers: they count as misses, and primitive 0 stands in
+    // for what they hit.
     Int primitive = PATH_LOAD_INT(primitive);
     v.hit = v.active & (primitive >= 0);
     v.primitive = sel(v.hit, primitive, (Int)0);
@@ -44,7 +46,8 @@ FN SurfaceInteraction surface_at(Primitive p, PathVertex v, global const VertexR
     }
     if (HAS(shape_sphere)) {
         Mask mine = primitive_kind(p) == geometry_sphere;
-        if (someLane(mine)) s = sel_surface(mine, surface_sphere(p, add3(v.origin, scale3(v.direction, v.t))), s);
+        if (someLane(mine))
+            s = sel_surface(mine, surface_sphere(p, add3(v.origin, scale3(v.direction, v.t))), s);
     }
     if (HAS(shape_disk)) {
         Mask mine = primitive_kind(p) == geometry_disk;
@@ -54,16 +57,19 @@ FN SurfaceInteraction surface_at(Primitive p, PathVertex v, global const VertexR
 }
 
 /// Radiance of the sky for lanes that missed everything, weighted against next event estimation.
-FN vec3 sky_emission(PathVertex v, global const LightRecord* lights, RenderParams params, int depth) {
+FN vec3 sky_emission(PathVertex v, global const LightRecord* lights, RenderParams params,
+                     int depth) {
     Light sky = load_Light(lights, (Int)params.constant_light);
     Real weight = R(1.);
-    if (HAS(next_event)) weight = power_heuristic(v.pdf, emitter_constant_pdf(sky, v.origin, v.direction, v.origin));
+    if (HAS(next_event))
+        weight = power_heuristic(v.pdf, emitter_constant_pdf(sky, v.origin, v.direction, v.origin));
     if (HAS(hide_emitters) && depth == 0) weight = R(0.);
     return scale3(light_radiance(sky), weight);
 }
 
 /// Radiance of the emitters the lanes hit, weighted against next event estimation.
-FN vec3 surface_emission(PathVertex v, Primitive p, SurfaceInteraction s, global const LightRecord* lights) {
+FN vec3 surface_emission(PathVertex v, Primitive p, SurfaceInteraction s,
+                         global const LightRecord* lights) {
     Mask emits = v.hit & (p.light >= 0);
     vec3 emitted = splat3(R(0.));
     if (someLane(emits)) {
@@ -76,16 +82,20 @@ FN vec3 surface_emission(PathVertex v, Primitive p, SurfaceInteraction s, global
     return emitted;
 }
 
-FN void write_aovs(global float* results, RenderParams params, PathVertex v, Primitive p, SurfaceInteraction s, Material m) {
+FN void write_aovs(global float* results, RenderParams params, PathVertex v, Primitive p,
+                   SurfaceInteraction s, Material m) {
     uint bits = maskBits(v.hit);
     long capacity = params.path_capacity;
     vec3 none = splat3(R(0.));
 #define AOV3(kind, value)                                                                          \
     if (params.aov_offset[aov_##kind] >= 0)                                                        \
-        add_result3(results, capacity, result_field_count + params.aov_offset[aov_##kind], v.slot, sel3(v.hit, value, none), bits);
+        add_result3(results, capacity, result_field_count + params.aov_offset[aov_##kind], v.slot, \
+                    sel3(v.hit, value, none), bits);
 #define AOV1(kind, channel, value)                                                                 \
     if (params.aov_offset[aov_##kind] >= 0)                                                        \
-        scatter_add(results + (result_field_count + params.aov_offset[aov_##kind] + channel) * capacity, v.slot, value, bits);
+        scatter_add(results +                                                                      \
+                        (result_field_count + params.aov_offset[aov_##kind] + channel) * capacity, \
+                    v.slot, value, bits);
     AOV3(albedo, material_reflectance(m))
     AOV3(sh_normal, s.ns)
     AOV3(geo_normal, s.ng)
@@ -97,8 +107,9 @@ FN void write_aovs(global float* results, RenderParams params, PathVertex v, Pri
     AOV1(prim_index, 0, toReal(p.index_in_shape))
 }
 
-/// Reads: path state, scene. Writes: results (emission, alpha, AOVs at the first vertex), counts, path and shadow state.
-/// Pushes: a shadow ray for each vertex with light to receive, a path for each that goes on; both packed in place.
+/// Reads: path state, scene. Writes: results (emission, alpha, AOVs at the first vertex), counts,
+/// path and shadow state. Pushes: a shadow ray for each vertex with light to receive, a path for
+/// each that goes on; both packed in place.
 kernel void shade(KERNEL_PARAMETERS) {
     int segment = get_global_id(0);
     int base = segment * params.segment_stride;
@@ -121,12 +132,14 @@ kernel void shade(KERNEL_PARAMETERS) {
             if (HAS(emitter_constant)) {
                 Mask sky = v.active & !v.hit;
                 if (someLane(sky)) seen = sel3(sky, sky_emission(v, lights, params, depth), seen);
-                if (!HAS(hide_emitters)) covered = covered | sky;
+                if (params.sky_covers) covered = covered | sky;
             }
         }
         if (HAS(emission) || depth == 0) {
             uint seen_bits = maskBits(v.active & (max_component(seen) != R(0.)));
-            if (seen_bits) add_result3(results, capacity, result_r, v.slot, mul3(v.throughput, seen), seen_bits);
+            if (seen_bits)
+                add_result3(results, capacity, result_r, v.slot, mul3(v.throughput, seen),
+                            seen_bits);
         }
         if (depth == 0) scatter_add(RESULT(result_alpha), v.slot, R(1.), maskBits(covered));
 
@@ -135,9 +148,12 @@ kernel void shade(KERNEL_PARAMETERS) {
         ShadingFrame frame = surface_frame(surface);
         vec3 wo = to_local(frame, neg3(v.direction));
         Int material_row = primitive.material_front;
-        if (HAS(back_materials)) material_row = sel(wo.z < R(0.), primitive.material_back, material_row);
+        if (HAS(back_materials))
+            material_row = sel(wo.z < R(0.), primitive.material_back, material_row);
         need_material = need_material & (material_row >= 0);
-        Material material = load_Material(materials, sel(need_material, material_row, (Int)0));
+        // A side without material absorbs; AOVs still show the front's.
+        Int shown_row = sel(material_row >= 0, material_row, primitive.material_front);
+        Material material = load_Material(materials, sel(shown_row >= 0, shown_row, (Int)0));
         if (HAS(aovs) && depth == 0) write_aovs(results, params, v, primitive, surface, material);
         if (depth + 1 >= params.max_depth) continue;
         Real side = R(1.);
@@ -153,9 +169,11 @@ kernel void shade(KERNEL_PARAMETERS) {
 
         // ---- next event estimation: one shadow ray with its finished contribution
         if (HAS(next_event)) {
-            Random4 r = random4(asUint(v.pixel), asUint(v.sample), bounce + dimension_emitter, seed);
+            Random4 r =
+                random4(asUint(v.pixel), asUint(v.sample), bounce + dimension_emitter, seed);
             Int row = pick_light(light_aliases, params.light_count, r.x, r.y);
-            EmitterSample e = emitter_sample(load_Light(lights, row), surface.p, uniform2(r.z, r.w));
+            EmitterSample e =
+                emitter_sample(load_Light(lights, row), surface.p, uniform2(r.z, r.w));
             vec3 wi = to_local(frame, e.wi);
             wi.z = wi.z * side;
             BsdfEval f = bsdf_eval(material, wo, wi);

@@ -4,7 +4,8 @@
 #include "device/path_state.h"
 #include "device/traverse.h"
 
-/// Reads: shadow state. Writes: results (r, g, b of the ray's own path slot; no other work-item has it).
+/// Reads: shadow state. Writes: results (r, g, b of the ray's own path slot; no other work-item has
+/// it).
 kernel void shadow(KERNEL_PARAMETERS) {
     int segment = get_global_id(0);
     int base = segment * params.segment_stride;
@@ -12,7 +13,8 @@ kernel void shadow(KERNEL_PARAMETERS) {
     for (int at = base; at < end; at++) {
         TraversalRay ray = traversal_ray(SHADOW_AT(ox), SHADOW_AT(oy), SHADOW_AT(oz), SHADOW_AT(dx),
                                          SHADOW_AT(dy), SHADOW_AT(dz));
-        RayHit hit = traverse(bvh_nodes, bvh_leaves, params.root, &ray, SHADOW_AT(t), SHADOW_INT_AT(excluded), 1);
+        RayHit hit = traverse(bvh_nodes, bvh_leaves, params.root, &ray, SHADOW_AT(t),
+                              SHADOW_INT_AT(excluded), 1);
         if (hit.primitive >= 0) continue;
         int slot = SHADOW_INT_AT(slot);
         RESULT(result_r)[slot] += SHADOW_AT(r);

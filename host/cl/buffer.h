@@ -17,19 +17,21 @@ class Buffer {
 public:
     Buffer() = default;
 
-    /// Memory whose contents are undefined. Throws DeviceError, naming the buffer and its size, where it does not fit.
+    /// Memory whose contents are undefined. Throws DeviceError, naming the buffer and its size,
+    /// where it does not fit.
     Buffer(const cl::Context& context, const std::string& name, std::size_t count) : count_(count) {
         std::size_t size = bytes() > 0 ? bytes() : sizeof(T);
         try {
             handle_ = cl::Buffer(context, CL_MEM_READ_WRITE, size);
         } catch (const cl::Error&) {
-            throw DeviceError(fmt::format("the device has no room for buffer {} of {:.1f} MB", name, size / 1e6));
+            throw DeviceError(
+                fmt::format("the device has no room for buffer {} of {:.1f} MB", name, size / 1e6));
         }
     }
 
     /// A copy of host values.
-    Buffer(const cl::Context& context, const cl::CommandQueue& queue, const std::string& name, const T* values,
-           std::size_t count)
+    Buffer(const cl::Context& context, const cl::CommandQueue& queue, const std::string& name,
+           const T* values, std::size_t count)
         : Buffer(context, name, count) {
         if (count_ > 0) queue.enqueueWriteBuffer(handle_, CL_TRUE, 0, bytes(), values);
     }

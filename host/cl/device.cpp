@@ -27,7 +27,8 @@ Device describe(const cl::Device& handle, const std::string& platform, int index
     d.driver_version = handle.getInfo<CL_DRIVER_VERSION>();
     d.opencl_version = handle.getInfo<CL_DEVICE_VERSION>();
     d.is_cpu = (handle.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
-    d.available = handle.getInfo<CL_DEVICE_AVAILABLE>() && handle.getInfo<CL_DEVICE_COMPILER_AVAILABLE>();
+    d.available =
+        handle.getInfo<CL_DEVICE_AVAILABLE>() && handle.getInfo<CL_DEVICE_COMPILER_AVAILABLE>();
     d.memory_bytes = handle.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
     d.max_allocation_bytes = handle.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
     d.compute_units = handle.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
@@ -64,15 +65,16 @@ DeviceList list_devices() {
     try {
         cl::Platform::get(&platforms);
     } catch (const cl::Error& e) {
-        list.failures.push_back(fmt::format("no OpenCL platform: {} in {}", opencl_error_name(e.err()), e.what()));
+        list.failures.push_back(
+            fmt::format("no OpenCL platform: {} in {}", opencl_error_name(e.err()), e.what()));
         return list;
     }
     for (std::size_t p = 0; p < platforms.size(); p++) {
         try {
             add_platform(platforms[p], list);
         } catch (const cl::Error& e) {
-            list.failures.push_back(
-                fmt::format("OpenCL platform {}: {} in {}", p, opencl_error_name(e.err()), e.what()));
+            list.failures.push_back(fmt::format("OpenCL platform {}: {} in {}", p,
+                                                opencl_error_name(e.err()), e.what()));
         }
     }
     return list;
@@ -81,30 +83,36 @@ DeviceList list_devices() {
 Device choose_device(const std::string& selector) {
     DeviceList list = list_devices();
     if (list.devices.empty()) {
-        std::string why = list.failures.empty() ? "no platform has a device" : list.failures.front();
+        std::string why =
+            list.failures.empty() ? "no platform has a device" : list.failures.front();
         throw DeviceError("no OpenCL device: " + why + " (on a CPU, install pocl-opencl-icd)");
     }
     if (selector.empty()) {
         auto usable = [](const Device& d) { return d.available; };
         auto gpu = [](const Device& d) { return d.available && !d.is_cpu; };
         auto found = std::find_if(list.devices.begin(), list.devices.end(), gpu);
-        if (found == list.devices.end()) found = std::find_if(list.devices.begin(), list.devices.end(), usable);
+        if (found == list.devices.end())
+            found = std::find_if(list.devices.begin(), list.devices.end(), usable);
         if (found != list.devices.end()) return *found;
-        throw DeviceError("no OpenCL device is available with a compiler; found " + device_names(list));
+        throw DeviceError("no OpenCL device is available with a compiler; found " +
+                          device_names(list));
     }
-    bool is_index = std::all_of(selector.begin(), selector.end(), [](unsigned char c) { return std::isdigit(c); });
+    bool is_index = std::all_of(selector.begin(), selector.end(),
+                                [](unsigned char c) { return std::isdigit(c); });
     for (const Device& d : list.devices) {
         bool same = is_index ? selector == std::to_string(d.index)
                              : lower(d.name).find(lower(selector)) != std::string::npos;
         if (same) return d;
     }
-    throw DeviceError(fmt::format("--device '{}' fits no OpenCL device; there are {}", selector, device_names(list)));
+    throw DeviceError(fmt::format("--device '{}' fits no OpenCL device; there are {}", selector,
+                                  device_names(list)));
 }
 
 std::string opencl_error_name(int code) {
     switch (code) {
 #define ERROR_NAME(name)                                                                           \
-    case name: return fmt::format(#name " ({})", code);
+    case name:                                                                                     \
+        return fmt::format(#name " ({})", code);
         ERROR_NAME(CL_DEVICE_NOT_FOUND)
         ERROR_NAME(CL_DEVICE_NOT_AVAILABLE)
         ERROR_NAME(CL_COMPILER_NOT_AVAILABLE)
@@ -125,7 +133,8 @@ std::string opencl_error_name(int code) {
         ERROR_NAME(CL_INVALID_BUFFER_SIZE)
         ERROR_NAME(CL_PLATFORM_NOT_FOUND_KHR)
 #undef ERROR_NAME
-    default: return fmt::format("OpenCL error {}", code);
+    default:
+        return fmt::format("OpenCL error {}", code);
     }
 }
 

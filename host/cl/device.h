@@ -33,8 +33,9 @@ struct DeviceList {
 /// Every device of every platform. A platform that fails is reported and hides no other.
 DeviceList list_devices();
 
-/// The device of that index or with that text in its name (case does not matter); an empty selector takes the first
-/// GPU, or the first device where there is none. Throws DeviceError naming what there is.
+/// The device of that index or with that text in its name (case does not matter); an empty selector
+/// takes the first GPU, or the first device where there is none. Throws DeviceError naming what
+/// there is.
 Device choose_device(const std::string& selector);
 
 /// The name of an OpenCL error code, e.g. "CL_OUT_OF_RESOURCES (-5)".

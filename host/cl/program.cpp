@@ -12,8 +12,8 @@ namespace parhelion {
 namespace {
 
 std::string option_text(const ProgramOptions& options) {
-    return fmt::format("-cl-std=CL1.2 -DLANES={} -DFEATURE_MASK=0x{:x}ul{}", options.lanes, options.features,
-                       options.portable ? " -DPORTABLE" : "");
+    return fmt::format("-cl-std=CL1.2 -DLANES={} -DFEATURE_MASK=0x{:x}ul{}", options.lanes,
+                       options.features, options.portable ? " -DPORTABLE" : "");
 }
 
 std::string kernel_name(const std::string& file) { return file.substr(0, file.find('.')); }
@@ -36,7 +36,8 @@ Program::Program(const cl::Context& context, const Device& device, const Program
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool Program::build_from(const cl::Context& context, const Device& device, const std::vector<unsigned char>& binary) {
+bool Program::build_from(const cl::Context& context, const Device& device,
+                         const std::vector<unsigned char>& binary) {
     try {
         program_ = cl::Program(context, {device.handle}, {binary});
         program_.build({device.handle});
@@ -47,14 +48,15 @@ bool Program::build_from(const cl::Context& context, const Device& device, const
     }
 }
 
-void Program::build_source(const cl::Context& context, const Device& device, const std::string& source) {
+void Program::build_source(const cl::Context& context, const Device& device,
+                           const std::string& source) {
     program_ = cl::Program(context, source);
     try {
         program_.build({device.handle}, options_.c_str());
     } catch (const cl::Error& e) {
         std::string log = program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle);
-        throw DeviceError(fmt::format("kernel file {} does not compile on {}: {}\n{}", file_, device.name,
-                                      opencl_error_name(e.err()), log));
+        throw DeviceError(fmt::format("kernel file {} does not compile on {}: {}\n{}", file_,
+                                      device.name, opencl_error_name(e.err()), log));
     }
 }
 

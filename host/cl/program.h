@@ -29,12 +29,13 @@ public:
     cl::Kernel kernel() const;
     bool from_cache() const { return from_cache_; }
     double seconds() const { return seconds_; }
-    /// Keeps the compiled program for the next run. Called after the kernel has run once: some implementations finish compiling
-    /// only then.
+    /// Keeps the compiled program for the next run. Called after the kernel has run once: some
+    /// implementations finish compiling only then.
     void store(const ProgramCache& cache) const;
 
 private:
-    bool build_from(const cl::Context& context, const Device& device, const std::vector<unsigned char>& binary);
+    bool build_from(const cl::Context& context, const Device& device,
+                    const std::vector<unsigned char>& binary);
     void build_source(const cl::Context& context, const Device& device, const std::string& source);
 
     std::string file_, options_, key_;

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::string_view magic = "parhelion program 1\n";
 
-/// FNV-1a, 64 bits: names a file and notices damage; equality of keys is checked on the keys themselves.
+/// FNV-1a, 64 bits: names a file and notices damage; equality of keys is checked on the keys
+/// themselves.
 std::uint64_t hash_bytes(const void* data, std::size_t size) {
     std::uint64_t h = 0xcbf29ce484222325u;
     for (std::size_t i = 0; i < size; i++)
@@ -51,13 +52,15 @@ std::filesystem::path ProgramCache::path(const std::string& key) const {
 std::optional<std::vector<unsigned char>> ProgramCache::load(const std::string& key) const {
     if (folder_.empty()) return std::nullopt;
     std::optional<std::string> text = read_file(path(key));
-    if (!text || text->size() < magic.size() + sizeof(Header) || !text->starts_with(magic)) return std::nullopt;
+    if (!text || text->size() < magic.size() + sizeof(Header) || !text->starts_with(magic))
+        return std::nullopt;
     Header header;
     text->copy(reinterpret_cast<char*>(&header), sizeof header, magic.size());
     std::string_view rest = std::string_view(*text).substr(magic.size() + sizeof header);
     if (header.key_size != key.size() || !rest.starts_with(key)) return std::nullopt;
     rest.remove_prefix(key.size());
-    if (header.binary_size != rest.size() || header.binary_hash != hash_bytes(rest.data(), rest.size()))
+    if (header.binary_size != rest.size() ||
+        header.binary_hash != hash_bytes(rest.data(), rest.size()))
         return std::nullopt;
     return std::vector<unsigned char>(rest.begin(), rest.end());
 }
@@ -73,7 +76,8 @@ void ProgramCache::store(const std::string& key, const std::vector<unsigned char
     out.write(magic.data(), magic.size());
     out.write(reinterpret_cast<const char*>(&header), sizeof header);
     out.write(key.data(), static_cast<std::streamsize>(key.size()));
-    out.write(reinterpret_cast<const char*>(binary.data()), static_cast<std::streamsize>(binary.size()));
+    out.write(reinterpret_cast<const char*>(binary.data()),
+              static_cast<std::streamsize>(binary.size()));
     out.close();
     if (out) std::filesystem::rename(temporary, target, ignored);
     if (!out || ignored) std::filesystem::remove(temporary, ignored);

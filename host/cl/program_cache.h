@@ -8,11 +8,13 @@
 
 namespace parhelion {
 
-/// A folder of program binaries. A file holds its whole key beside the binary, so two keys with one hash are told apart; a file
-/// that is damaged or cannot be read counts as absent, and one that cannot be written is done without.
+/// A folder of program binaries. A file holds its whole key beside the binary, so two keys with one
+/// hash are told apart; a file that is damaged or cannot be read counts as absent, and one that
+/// cannot be written is done without.
 class ProgramCache {
 public:
-    /// PARHELION_CACHE_DIR, else parhelion/ below XDG_CACHE_HOME, else ~/.cache/parhelion. No folder, no cache.
+    /// PARHELION_CACHE_DIR, else parhelion/ below XDG_CACHE_HOME, else ~/.cache/parhelion. No
+    /// folder, no cache.
     static ProgramCache standard();
     explicit ProgramCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 

@@ -7,7 +7,8 @@
 
 namespace parhelion {
 
-/// Compiles and runs a small kernel with known results. Returns an empty string, or one line that says what went wrong.
+/// Compiles and runs a small kernel with known results. Returns an empty string, or one line that
+/// says what went wrong.
 std::string self_test(const Device& device);
 
 } // namespace parhelion

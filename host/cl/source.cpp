@@ -28,7 +28,8 @@ std::string_view included_path(std::string_view line) {
 
 void append_file(std::string_view path, std::set<std::string_view>& done, std::string& source);
 
-void append_text(std::string_view path, std::string_view text, std::set<std::string_view>& done, std::string& source) {
+void append_text(std::string_view path, std::string_view text, std::set<std::string_view>& done,
+                 std::string& source) {
     source += fmt::format("#line 1 \"{}\"\n", path);
     int line_number = 0;
     while (!text.empty()) {

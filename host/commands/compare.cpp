@@ -5,10 +5,10 @@
 #include "host/error.h"
 #include "host/image/exr.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 

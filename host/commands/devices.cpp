@@ -40,10 +40,13 @@ nlohmann::json to_json(const Tested& t) {
 void print_text(const Tested& t) {
     const Device& d = t.device;
     fmt::print("{}: {}\n", d.index, d.name);
-    fmt::print("   {} ({}), driver {}, {}\n", d.platform, d.vendor, d.driver_version, d.opencl_version);
-    fmt::print("   {} compute units, {:.1f} GB memory, largest buffer {:.1f} GB, {} floats a vector, {} lanes, fp64 {}\n",
-               d.compute_units, static_cast<double>(d.memory_bytes) / 1e9, static_cast<double>(d.max_allocation_bytes) / 1e9,
-               d.float_width, d.lanes(), d.fp64 ? "yes" : "no");
+    fmt::print("   {} ({}), driver {}, {}\n", d.platform, d.vendor, d.driver_version,
+               d.opencl_version);
+    fmt::print("   {} compute units, {:.1f} GB memory, largest buffer {:.1f} GB, {} floats a "
+               "vector, {} lanes, fp64 {}\n",
+               d.compute_units, static_cast<double>(d.memory_bytes) / 1e9,
+               static_cast<double>(d.max_allocation_bytes) / 1e9, d.float_width, d.lanes(),
+               d.fp64 ? "yes" : "no");
     fmt::print("   self-test {}\n", t.failure.empty() ? "passed" : "FAILED: " + t.failure);
 }
 
@@ -54,12 +57,18 @@ int run_devices(bool json) {
     for (const Device& device : list.devices) {
         Tested tested{device, self_test(device)};
         one_works = one_works || tested.failure.empty();
-        if (json) devices.push_back(to_json(tested));
-        else print_text(tested);
+        if (json)
+            devices.push_back(to_json(tested));
+        else
+            print_text(tested);
     }
-    if (json) fmt::print("{}\n", nlohmann::json{{"devices", devices}, {"failures", list.failures}}.dump(2));
-    for (const std::string& failure : list.failures) fmt::print(stderr, "parhelion: {}\n", failure);
-    if (list.devices.empty()) fmt::print(stderr, "parhelion: no OpenCL device (on a CPU, install pocl-opencl-icd)\n");
+    if (json)
+        fmt::print("{}\n",
+                   nlohmann::json{{"devices", devices}, {"failures", list.failures}}.dump(2));
+    for (const std::string& failure : list.failures)
+        fmt::print(stderr, "parhelion: {}\n", failure);
+    if (list.devices.empty())
+        fmt::print(stderr, "parhelion: no OpenCL device (on a CPU, install pocl-opencl-icd)\n");
     return static_cast<int>(one_works ? ExitCode::ok : ExitCode::device_failure);
 }
 

@@ -33,10 +33,13 @@ nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
     std::size_t triangles = 0;
     for (const Shape& shape : scene.shapes) {
         shapes[shape.plugin]++;
-        if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) triangles += mesh->triangles.size();
+        if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry))
+            triangles += mesh->triangles.size();
     }
-    for (const MaterialRecord& m : flat.materials) materials[material_names[m.kind]]++;
-    for (const LightRecord& l : flat.lights) lights[emitter_names[l.kind]]++;
+    for (const MaterialRecord& m : flat.materials)
+        materials[material_names[m.kind]]++;
+    for (const LightRecord& l : flat.lights)
+        lights[emitter_names[l.kind]]++;
     return {{"scene", scene.file},
             {"film", {{"width_pixels", scene.film.width}, {"height_pixels", scene.film.height}}},
             {"samples_per_pixel", scene.sampler.samples_per_pixel},
@@ -70,37 +73,49 @@ void print_text(const nlohmann::json& info) {
     fmt::print("{}\n", info["scene"].get<std::string>());
     fmt::print("  film       {} x {} pixels, {} spp\n", info["film"]["width_pixels"].get<int>(),
                info["film"]["height_pixels"].get<int>(), info["samples_per_pixel"].get<int>());
-    fmt::print("  shapes     {} ({} triangles)\n", counted(info["shapes"]), info["triangles"].get<std::size_t>());
+    fmt::print("  shapes     {} ({} triangles)\n", counted(info["shapes"]),
+               info["triangles"].get<std::size_t>());
     fmt::print("  materials  {}\n", counted(info["materials"]));
     fmt::print("  lights     {}\n", counted(info["lights"]));
     fmt::print("  textures   {}\n", info["textures"].get<int>());
-    fmt::print("  BVH        {} nodes, {} leaves, depth {}, SAH cost {:.2f}\n", info["bvh"]["nodes"].get<std::size_t>(),
-               info["bvh"]["leaves"].get<std::size_t>(), info["bvh"]["depth"].get<int>(),
-               info["bvh"]["sah_cost"].get<double>());
-    fmt::print("  memory     {:.1f} MB on the device\n", info["device_scene_bytes"].get<double>() / 1e6);
-    fmt::print("  kernels    {}\n", fmt::join(info["kernel_features"].get<std::vector<std::string>>(), " "));
-    fmt::print("  left out   {}\n", fmt::join(info["skipped_features"].get<std::vector<std::string>>(), " "));
-    for (const auto& note : info["notes"]) fmt::print("  note       {}\n", note.get<std::string>());
+    fmt::print("  BVH        {} nodes, {} leaves, depth {}, SAH cost {:.2f}\n",
+               info["bvh"]["nodes"].get<std::size_t>(), info["bvh"]["leaves"].get<std::size_t>(),
+               info["bvh"]["depth"].get<int>(), info["bvh"]["sah_cost"].get<double>());
+    fmt::print("  memory     {:.1f} MB on the device\n",
+               info["device_scene_bytes"].get<double>() / 1e6);
+    fmt::print("  kernels    {}\n",
+               fmt::join(info["kernel_features"].get<std::vector<std::string>>(), " "));
+    fmt::print("  left out   {}\n",
+               fmt::join(info["skipped_features"].get<std::vector<std::string>>(), " "));
+    for (const auto& note : info["notes"])
+        fmt::print("  note       {}\n", note.get<std::string>());
 }
 
 void run_info(const InfoCommand& command) {
-    Scene scene = load_scene(command.scene_file, {parse_definitions(command.definitions), command.allow_outside});
+    Scene scene = load_scene(command.scene_file,
+                             {parse_definitions(command.definitions), command.allow_outside});
     nlohmann::json info = describe(scene, make_device_scene(scene));
-    if (command.json) fmt::print("{}\n", info.dump(2));
-    else print_text(info);
+    if (command.json)
+        fmt::print("{}\n", info.dump(2));
+    else
+        print_text(info);
 }
 
 } // namespace
 
 void add_info_command(CLI::App& app) {
-    CLI::App* sub = app.add_subcommand("info", "Say what is in a scene and what its kernels will have");
+    CLI::App* sub =
+        app.add_subcommand("info", "Say what is in a scene and what its kernels will have");
     auto command = std::make_shared<InfoCommand>();
     sub->add_option("scene", command->scene_file, "Scene file (Mitsuba 3 XML)")->required();
-    sub->add_option("-D,--define", command->definitions, "name=value for the scene's $name (repeat for more)")
+    sub->add_option("-D,--define", command->definitions,
+                    "name=value for the scene's $name (repeat for more)")
         ->allow_extra_args(false);
-    sub->add_flag("--allow-outside", command->allow_outside, "Let the scene name files outside its own folder");
+    sub->add_flag("--allow-outside", command->allow_outside,
+                  "Let the scene name files outside its own folder");
     sub->add_flag("--json", command->json, "One JSON object");
-    sub->footer("Example:\n  parhelion info scenes/cornell-box/scene.xml --json | jq .kernel_features");
+    sub->footer(
+        "Example:\n  parhelion info scenes/cornell-box/scene.xml --json | jq .kernel_features");
     sub->callback([command] { run_info(*command); });
 }
 

@@ -1,7 +1,7 @@
 // `parhelion info`: what is in a scene, and what its kernels will have.
 #pragma once
 
-namespace CLI {
+namespace CLI { // NOLINT(readability-identifier-naming): the library's name
 class App;
 }
 

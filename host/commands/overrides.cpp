@@ -13,15 +13,18 @@ namespace {
 
 constexpr int largest_side = 65536;
 
-constexpr std::array<std::pair<std::string_view, IntegratorKind>, 5> integrators{{{"path", IntegratorKind::path},
-                                                                                  {"direct", IntegratorKind::direct},
-                                                                                  {"normals", IntegratorKind::normals},
-                                                                                  {"depth", IntegratorKind::depth},
-                                                                                  {"aov", IntegratorKind::aov}}};
+constexpr std::array<std::pair<std::string_view, IntegratorKind>, 5> integrators{
+    {{"path", IntegratorKind::path},
+     {"direct", IntegratorKind::direct},
+     {"normals", IntegratorKind::normals},
+     {"depth", IntegratorKind::depth},
+     {"aov", IntegratorKind::aov}}};
 
-/// Integers separated by `separator`; fewer or more than N, or anything else, is an error that shows the form.
+/// Integers separated by `separator`; fewer or more than N, or anything else, is an error that
+/// shows the form.
 template<std::size_t N>
-std::array<int, N> parse_integers(std::string_view option, std::string_view text, char separator, std::string_view form) {
+std::array<int, N> parse_integers(std::string_view option, std::string_view text, char separator,
+                                  std::string_view form) {
     std::array<int, N> values{};
     std::string_view rest = text;
     for (std::size_t i = 0; i < N; i++) {
@@ -35,18 +38,23 @@ std::array<int, N> parse_integers(std::string_view option, std::string_view text
 }
 
 void set_size(const std::string& text, Film& film) {
-    auto [width, height] = parse_integers<2>("--size", text, 'x', "WIDTHxHEIGHT in pixels, e.g. 640x480");
+    auto [width, height] =
+        parse_integers<2>("--size", text, 'x', "WIDTHxHEIGHT in pixels, e.g. 640x480");
     if (width < 1 || height < 1 || width > largest_side || height > largest_side)
-        throw InputError(fmt::format("--size '{}': each side is 1 to {} pixels", text, largest_side));
+        throw InputError(
+            fmt::format("--size '{}': each side is 1 to {} pixels", text, largest_side));
     film.width = width, film.height = height;
     film.crop_x = film.crop_y = film.crop_width = film.crop_height = 0;
 }
 
 void set_crop(const std::string& text, Film& film) {
-    auto [x, y, width, height] = parse_integers<4>("--crop", text, ',', "X,Y,WIDTH,HEIGHT in pixels, e.g. 0,0,64,64");
-    bool inside = x >= 0 && y >= 0 && width >= 1 && height >= 1 && x <= film.width - width && y <= film.height - height;
+    auto [x, y, width, height] =
+        parse_integers<4>("--crop", text, ',', "X,Y,WIDTH,HEIGHT in pixels, e.g. 0,0,64,64");
+    bool inside = x >= 0 && y >= 0 && width >= 1 && height >= 1 && x <= film.width - width &&
+                  y <= film.height - height;
     if (!inside)
-        throw InputError(fmt::format("--crop '{}': must lie inside the film of {}x{} pixels", text, film.width, film.height));
+        throw InputError(fmt::format("--crop '{}': must lie inside the film of {}x{} pixels", text,
+                                     film.width, film.height));
     film.crop_x = x, film.crop_y = y, film.crop_width = width, film.crop_height = height;
 }
 
@@ -68,7 +76,8 @@ AovRequest aov_request(const std::string& name) {
 }
 
 int at_least(std::string_view option, int value, int least) {
-    if (value < least) throw InputError(fmt::format("{} {}: must be at least {}", option, value, least));
+    if (value < least)
+        throw InputError(fmt::format("{} {}: must be at least {}", option, value, least));
     return value;
 }
 
@@ -78,14 +87,17 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (command.size) set_size(*command.size, scene.film);
     if (command.crop) set_crop(*command.crop, scene.film);
     Film& film = scene.film;
-    if (film.crop_width == 0) film.crop_x = film.crop_y = 0, film.crop_width = film.width, film.crop_height = film.height;
+    if (film.crop_width == 0)
+        film.crop_x = film.crop_y = 0, film.crop_width = film.width, film.crop_height = film.height;
     if (command.integrator) set_integrator(*command.integrator, scene.integrator);
     if (command.samples) scene.sampler.samples_per_pixel = at_least("--spp", *command.samples, 1);
-    if (command.max_depth) scene.integrator.max_depth = at_least("--max-depth", *command.max_depth, -1);
+    if (command.max_depth)
+        scene.integrator.max_depth = at_least("--max-depth", *command.max_depth, -1);
     if (command.rr_depth) scene.integrator.rr_depth = at_least("--rr-depth", *command.rr_depth, 1);
     if (command.seed) scene.sampler.seed = *command.seed;
     if (!command.next_event) scene.integrator.emitter_samples = false;
-    for (const std::string& name : command.aovs) scene.integrator.aovs.push_back(aov_request(name));
+    for (const std::string& name : command.aovs)
+        scene.integrator.aovs.push_back(aov_request(name));
 }
 
 std::map<std::string, std::string> parse_definitions(const std::vector<std::string>& definitions) {

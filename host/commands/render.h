@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
+namespace CLI { // NOLINT(readability-identifier-naming): the library's name
 class App;
 }
 
@@ -31,7 +31,8 @@ struct RenderCommand {
 /// Loads, renders and writes. Throws InputError before any output exists, or DeviceError.
 void run_render(const RenderCommand& command);
 
-/// Replaces what the scene file says by what the command line says. Throws InputError naming the option.
+/// Replaces what the scene file says by what the command line says. Throws InputError naming the
+/// option.
 void apply_overrides(const RenderCommand& command, Scene& scene);
 
 /// Registers the subcommand; errors pass through CLI::App::parse to the caller.

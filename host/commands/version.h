@@ -5,7 +5,8 @@
 
 namespace parhelion {
 
-/// Version, commit, and the versions of the OpenCL headers and libraries this program was built with.
+/// Version, commit, and the versions of the OpenCL headers and libraries this program was built
+/// with.
 std::string version_text();
 
 } // namespace parhelion

@@ -45,8 +45,26 @@ CameraRecord camera_record(const Camera& camera, int width, int height) {
     Point d = to_float(forward - centre.x * step_x - centre.y * step_y);
     Point u = to_float(step_x), v = to_float(step_y);
     Point l = to_float(left * camera.aperture_radius), m = to_float(up * camera.aperture_radius);
-    return {o.x, o.y, o.z, d.x, d.y, d.z, u.x, u.y, u.z, v.x, v.y, v.z, l.x, l.y, l.z, m.x, m.y, m.z,
-            static_cast<float>(camera.near_clip), static_cast<float>(camera.far_clip),
+    return {o.x,
+            o.y,
+            o.z,
+            d.x,
+            d.y,
+            d.z,
+            u.x,
+            u.y,
+            u.z,
+            v.x,
+            v.y,
+            v.z,
+            l.x,
+            l.y,
+            l.z,
+            m.x,
+            m.y,
+            m.z,
+            static_cast<float>(camera.near_clip),
+            static_cast<float>(camera.far_clip),
             static_cast<float>(camera.focus_distance)};
 }
 

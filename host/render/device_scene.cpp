@@ -1,4 +1,5 @@
-// The scene as the device reads it: shapes to primitives, then everything else from its own builder.
+// The scene as the device reads it: shapes to primitives, then everything else from its own
+// builder.
 #include "host/render/device_scene.h"
 
 #include "host/render/filter_table.h"
@@ -45,7 +46,8 @@ void set_points(PrimitiveRecord& p, const glm::dvec3& a, const glm::dvec3& b, co
 VertexRecord vertex_record(const Mesh& mesh, const glm::uvec3& t) {
     VertexRecord v{};
     if (!mesh.normals.empty()) {
-        Position a = to_float(mesh.normals[t.x]), b = to_float(mesh.normals[t.y]), c = to_float(mesh.normals[t.z]);
+        Position a = to_float(mesh.normals[t.x]), b = to_float(mesh.normals[t.y]),
+                 c = to_float(mesh.normals[t.z]);
         v.n0x = a.x, v.n0y = a.y, v.n0z = a.z;
         v.n1x = b.x, v.n1y = b.y, v.n1z = b.z;
         v.n2x = c.x, v.n2y = c.y, v.n2z = c.z;
@@ -59,12 +61,16 @@ VertexRecord vertex_record(const Mesh& mesh, const glm::uvec3& t) {
 }
 
 void add_shape(const Mesh& mesh, const Shape& shape, int index, DeviceScene& out) {
-    int flags = (mesh.normals.empty() ? 0 : PRIMITIVE_NORMALS) | (mesh.uvs.empty() ? 0 : PRIMITIVE_UVS);
-    bool attributes = out.features & (feature_bit(feature_vertex_normals) | feature_bit(feature_vertex_uvs));
+    int flags =
+        (mesh.normals.empty() ? 0 : PRIMITIVE_NORMALS) | (mesh.uvs.empty() ? 0 : PRIMITIVE_UVS);
+    bool attributes =
+        out.features & (feature_bit(feature_vertex_normals) | feature_bit(feature_vertex_uvs));
+    bool one_primitive =
+        shape.plugin == "rectangle"; // two triangles here, one primitive to the user
     for (std::size_t i = 0; i < mesh.triangles.size(); i++) {
         const glm::uvec3& t = mesh.triangles[i];
         PrimitiveRecord p = primitive(shape, index, geometry_triangle, flags);
-        p.index_in_shape = static_cast<int>(i);
+        p.index_in_shape = one_primitive ? 0 : static_cast<int>(i);
         set_points(p, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
         out.primitives.push_back(p);
         if (attributes) out.vertices.push_back(vertex_record(mesh, t));
@@ -78,14 +84,16 @@ void add_analytic(const PrimitiveRecord& p, DeviceScene& out) {
 }
 
 void add_shape(const Sphere& sphere, const Shape& shape, int index, DeviceScene& out) {
-    PrimitiveRecord p = primitive(shape, index, geometry_sphere, sphere.flip_normals ? PRIMITIVE_FLIPPED : 0);
+    PrimitiveRecord p =
+        primitive(shape, index, geometry_sphere, sphere.flip_normals ? PRIMITIVE_FLIPPED : 0);
     set_points(p, sphere.center, sphere.axis_x, sphere.axis_z);
     p.radius = static_cast<float>(sphere.radius);
     add_analytic(p, out);
 }
 
 void add_shape(const Disk& disk, const Shape& shape, int index, DeviceScene& out) {
-    PrimitiveRecord p = primitive(shape, index, geometry_disk, disk.flip_normals ? PRIMITIVE_FLIPPED : 0);
+    PrimitiveRecord p =
+        primitive(shape, index, geometry_disk, disk.flip_normals ? PRIMITIVE_FLIPPED : 0);
     set_points(p, disk.center, disk.edge_u, disk.edge_v);
     add_analytic(p, out);
 }
@@ -111,16 +119,19 @@ std::vector<int> seen_by_camera(const DeviceScene& scene) {
 
 static DeviceScene flatten_scene(const Scene& scene) {
     std::size_t count = primitive_count(scene);
-    constexpr std::size_t most = std::numeric_limits<int>::max() / 16; // words of a record are indexed too
+    constexpr std::size_t most =
+        std::numeric_limits<int>::max() / 16; // words of a record are indexed too
     if (count > most)
-        throw InputError(fmt::format("{}: {} primitives; the device indexes at most {}", scene.file, count, most));
+        throw InputError(fmt::format("{}: {} primitives; the device indexes at most {}", scene.file,
+                                     count, most));
     DeviceScene out;
     out.features = scene_features(scene);
     out.primitives.reserve(count);
     for (std::size_t i = 0; i < scene.shapes.size(); i++)
         std::visit([&](const auto& g) { add_shape(g, scene.shapes[i], static_cast<int>(i), out); },
                    scene.shapes[i].geometry);
-    for (const Material& material : scene.materials) out.materials.push_back(material_record(material.bsdf));
+    for (const Material& material : scene.materials)
+        out.materials.push_back(material_record(material.bsdf));
     add_light_table(scene, out);
     out.filter_table = make_filter_table(scene.film.filter);
     return out;
@@ -134,15 +145,16 @@ DeviceScene make_device_scene(const Scene& scene) {
     out.camera_root = out.root;
     if (scene.integrator.hide_emitters) {
         std::vector<int> visible = seen_by_camera(out);
-        if (visible.size() < all.size()) out.camera_root = bvh_append(out.bvh, out.primitives, visible, nullptr);
+        if (visible.size() < all.size())
+            out.camera_root = bvh_append(out.bvh, out.primitives, visible, nullptr);
     }
     return out;
 }
 
 std::size_t DeviceScene::bytes() const {
     auto size = [](const auto& v) { return v.size() * sizeof(v[0]); };
-    return size(primitives) + size(vertices) + size(materials) + size(lights) + size(light_aliases) +
-           size(filter_table) + size(bvh.nodes) + size(bvh.leaves);
+    return size(primitives) + size(vertices) + size(materials) + size(lights) +
+           size(light_aliases) + size(filter_table) + size(bvh.nodes) + size(bvh.leaves);
 }
 
 } // namespace parhelion

@@ -3,9 +3,9 @@
 
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
-#include "kernels/shared/types.h"
-#include "kernels/shared/features.h"
 #include "kernels/device/buffers.h"
+#include "kernels/shared/features.h"
+#include "kernels/shared/types.h"
 
 #include <cstdint>
 #include <string>
@@ -15,7 +15,8 @@ namespace parhelion {
 
 struct DeviceScene {
     std::vector<PrimitiveRecord> primitives;
-    std::vector<VertexRecord> vertices; ///< parallel to primitives; empty where no mesh has attributes that are read
+    std::vector<VertexRecord>
+        vertices; ///< parallel to primitives; empty where no mesh has attributes that are read
     std::vector<MaterialRecord> materials;
     std::vector<LightRecord> lights;
     std::vector<LightAlias> light_aliases;
@@ -24,13 +25,14 @@ struct DeviceScene {
     BvhStatistics bvh_statistics;
     int camera_root = 0; ///< differs from root where emitters are hidden from the camera
     int root = 0;
-    int constant_light = -1; ///< row of the light table
+    int constant_light = -1;    ///< row of the light table
     std::uint64_t features = 0; ///< what the kernels must have, a mask over enum Feature
 
     std::size_t bytes() const;
 };
 
-/// Flattens a scene and builds its BVH. Throws InputError where the scene is larger than the device's 32-bit indices.
+/// Flattens a scene and builds its BVH. Throws InputError where the scene is larger than the
+/// device's 32-bit indices.
 DeviceScene make_device_scene(const Scene& scene);
 
 constexpr std::uint64_t feature_bit(Feature f) { return std::uint64_t{1} << f; }

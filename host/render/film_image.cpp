@@ -22,7 +22,8 @@ static_assert(aov_kinds.size() <= AOV_LIMIT);
 
 std::string aov_kind_names() {
     std::string text;
-    for (const AovKindInfo& kind : aov_kinds) text += fmt::format("{}{}", text.empty() ? "" : ", ", kind.name);
+    for (const AovKindInfo& kind : aov_kinds)
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", kind.name);
     return text;
 }
 
@@ -38,8 +39,10 @@ public:
         for (int y = 0; y < crop_.crop_height; y++)
             for (int x = 0; x < crop_.crop_width; x++) {
                 double weight = sum(result_weight, x, y);
-                // No sample, or filter weights that cancel exactly: there is no mean, and black would be a lie only there.
-                out.push_back(static_cast<float>(weight != 0.0 ? sum(channel, x, y) / weight : 0.0));
+                // No sample, or filter weights that cancel exactly: there is no mean, and black
+                // would be a lie only there.
+                out.push_back(
+                    static_cast<float>(weight != 0.0 ? sum(channel, x, y) / weight : 0.0));
             }
         return out;
     }
@@ -56,10 +59,10 @@ private:
     const Film& crop_;
 };
 
-/// Linear sRGB to CIE XYZ (IEC 61966-2-1), rows X, Y, Z.
-constexpr double xyz_from_rgb[3][3] = {{0.4124564, 0.3575761, 0.1804375},
-                                       {0.2126729, 0.7151522, 0.0721750},
-                                       {0.0193339, 0.1191920, 0.9503041}};
+/// Linear Rec. 709 to CIE XYZ (ITU-R BT.709 primaries, D65), rows X, Y, Z: the figures Mitsuba 3
+/// uses.
+constexpr double xyz_from_rgb[3][3] = {
+    {0.412453, 0.357580, 0.180423}, {0.212671, 0.715160, 0.072169}, {0.019334, 0.119193, 0.950227}};
 
 std::vector<float> combine(const std::array<std::vector<float>, 3>& rgb, const double (&row)[3]) {
     std::vector<float> out(rgb[0].size());
@@ -69,10 +72,13 @@ std::vector<float> combine(const std::array<std::vector<float>, 3>& rgb, const d
 }
 
 void add_main_layer(const FilmReader& film, PixelFormat format, Image& image) {
-    std::array<std::vector<float>, 3> rgb{film.means(result_r), film.means(result_g), film.means(result_b)};
+    std::array<std::vector<float>, 3> rgb{film.means(result_r), film.means(result_g),
+                                          film.means(result_b)};
     switch (format) {
     case PixelFormat::luminance:
-    case PixelFormat::luminance_alpha: add_channel(image, "Y", combine(rgb, xyz_from_rgb[1])); break;
+    case PixelFormat::luminance_alpha:
+        add_channel(image, "Y", combine(rgb, xyz_from_rgb[1]));
+        break;
     case PixelFormat::xyz:
     case PixelFormat::xyza:
         add_channel(image, "X", combine(rgb, xyz_from_rgb[0]));
@@ -85,7 +91,8 @@ void add_main_layer(const FilmReader& film, PixelFormat format, Image& image) {
         add_channel(image, "G", std::move(rgb[1]));
         add_channel(image, "B", std::move(rgb[2]));
     }
-    if (format == PixelFormat::luminance_alpha || format == PixelFormat::rgba || format == PixelFormat::xyza)
+    if (format == PixelFormat::luminance_alpha || format == PixelFormat::rgba ||
+        format == PixelFormat::xyza)
         add_channel(image, "A", film.means(result_alpha));
 }
 
@@ -95,21 +102,25 @@ AovPlan plan_aovs(const Integrator& integrator) {
     AovPlan plan;
     for (const AovRequest& request : integrator.aovs) {
         int kind = 0;
-        while (kind < static_cast<int>(aov_kinds.size()) && aov_kinds[kind].name != request.kind) kind++;
+        while (kind < static_cast<int>(aov_kinds.size()) && aov_kinds[kind].name != request.kind)
+            kind++;
         if (kind == static_cast<int>(aov_kinds.size()))
-            throw InputError(fmt::format("{}: there is no AOV '{}'; there are {}", request.location.to_string(),
-                                         request.kind, aov_kind_names()));
+            throw InputError(fmt::format("{}: there is no AOV '{}'; there are {}",
+                                         request.location.to_string(), request.kind,
+                                         aov_kind_names()));
         for (const AovLayer& layer : plan.layers)
             if (layer.kind == kind || layer.name == request.name)
-                throw InputError(fmt::format("{}: AOV '{}' ({}) is asked for twice", request.location.to_string(),
-                                             request.name, request.kind));
+                throw InputError(fmt::format("{}: AOV '{}' ({}) is asked for twice",
+                                             request.location.to_string(), request.name,
+                                             request.kind));
         plan.layers.push_back({request.name, kind, plan.channels});
         plan.channels += aov_kinds[kind].channels;
     }
     return plan;
 }
 
-Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene, const AovPlan& aovs) {
+Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene,
+                 const AovPlan& aovs) {
     const Film& crop = scene.film;
     Image image;
     image.width = crop.crop_width, image.height = crop.crop_height;

@@ -9,7 +9,8 @@
 
 namespace parhelion {
 
-/// What the film's channels behind the results hold: for each AOV asked for, its name, kind and first channel.
+/// What the film's channels behind the results hold: for each AOV asked for, its name, kind and
+/// first channel.
 struct AovLayer {
     std::string name; ///< of the EXR layer
     int kind;         ///< enum AovKind
@@ -21,10 +22,13 @@ struct AovPlan {
     int channels = 0;
 };
 
-/// Lays out the AOVs of an integrator. Throws InputError for a kind that there is not, naming those there are.
+/// Lays out the AOVs of an integrator. Throws InputError for a kind that there is not, naming those
+/// there are.
 AovPlan plan_aovs(const Integrator& integrator);
 
-/// Divides the film's sums by the filter weights and names the channels. `film` as the accumulate kernel leaves it.
-Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene, const AovPlan& aovs);
+/// Divides the film's sums by the filter weights and names the channels. `film` as the accumulate
+/// kernel leaves it.
+Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene,
+                 const AovPlan& aovs);
 
 } // namespace parhelion

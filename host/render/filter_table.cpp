@@ -15,9 +15,12 @@ constexpr int cells_per_side = 1 << 16; // of the quadrature: mass errors below 
 double cubic(double x, double b, double c) {
     double x2 = x * x, x3 = x2 * x;
     if (x < 1.0)
-        return ((12.0 - 9.0 * b - 6.0 * c) * x3 + (-18.0 + 12.0 * b + 6.0 * c) * x2 + (6.0 - 2.0 * b)) / 6.0;
+        return ((12.0 - 9.0 * b - 6.0 * c) * x3 + (-18.0 + 12.0 * b + 6.0 * c) * x2 +
+                (6.0 - 2.0 * b)) /
+               6.0;
     if (x < 2.0)
-        return ((-b - 6.0 * c) * x3 + (6.0 * b + 30.0 * c) * x2 + (-12.0 * b - 48.0 * c) * x + (8.0 * b + 24.0 * c)) /
+        return ((-b - 6.0 * c) * x3 + (6.0 * b + 30.0 * c) * x2 + (-12.0 * b - 48.0 * c) * x +
+                (8.0 * b + 24.0 * c)) /
                6.0;
     return 0.0;
 }
@@ -31,12 +34,17 @@ double sinc(double x) {
 
 double filter_radius(const ReconstructionFilter& filter) {
     switch (filter.kind) {
-    case FilterKind::box: return 0.5;
-    case FilterKind::tent: return filter.radius > 0.0 ? filter.radius : 1.0;
-    case FilterKind::gaussian: return 4.0 * filter.stddev;
+    case FilterKind::box:
+        return 0.5;
+    case FilterKind::tent:
+        return filter.radius > 0.0 ? filter.radius : 1.0;
+    case FilterKind::gaussian:
+        return 4.0 * filter.stddev;
     case FilterKind::mitchell:
-    case FilterKind::catmullrom: return 2.0;
-    case FilterKind::lanczos: return filter.lanczos_lobes;
+    case FilterKind::catmullrom:
+        return 2.0;
+    case FilterKind::lanczos:
+        return filter.lanczos_lobes;
     }
     return 0.5;
 }
@@ -45,15 +53,20 @@ double filter_value(const ReconstructionFilter& filter, double x) {
     double distance = std::abs(x), radius = filter_radius(filter);
     if (distance > radius) return 0.0;
     switch (filter.kind) {
-    case FilterKind::box: return 1.0;
-    case FilterKind::tent: return 1.0 - distance / radius;
+    case FilterKind::box:
+        return 1.0;
+    case FilterKind::tent:
+        return 1.0 - distance / radius;
     case FilterKind::gaussian: {
         double alpha = -1.0 / (2.0 * filter.stddev * filter.stddev);
         return std::exp(alpha * x * x) - std::exp(alpha * radius * radius);
     }
-    case FilterKind::mitchell: return cubic(distance, filter.mitchell_a, filter.mitchell_b);
-    case FilterKind::catmullrom: return cubic(distance, 0.0, 0.5);
-    case FilterKind::lanczos: return sinc(distance) * sinc(distance / radius);
+    case FilterKind::mitchell:
+        return cubic(distance, filter.mitchell_a, filter.mitchell_b);
+    case FilterKind::catmullrom:
+        return cubic(distance, 0.0, 0.5);
+    case FilterKind::lanczos:
+        return sinc(distance) * sinc(distance / radius);
     }
     return 0.0;
 }
@@ -74,7 +87,8 @@ std::vector<FilterBin> make_filter_table(const ReconstructionFilter& filter) {
     bins[0].x = static_cast<float>(-radius);
     for (int b = 1; b <= bin_count; b++) {
         double mass = absolute.back() * b / bin_count;
-        while (border + 2 < absolute.size() && absolute[border + 1] < mass) border++;
+        while (border + 2 < absolute.size() && absolute[border + 1] < mass)
+            border++;
         double inside = (mass - absolute[border]) / (absolute[border + 1] - absolute[border]);
         double here = plain[border] + inside * (plain[border + 1] - plain[border]);
         bins[b].x = static_cast<float>(-radius + (static_cast<double>(border) + inside) * cell);

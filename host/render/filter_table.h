@@ -14,7 +14,8 @@ double filter_value(const ReconstructionFilter& filter, double x);
 /// Half the width of the filter's support along one axis, pixels.
 double filter_radius(const ReconstructionFilter& filter);
 
-/// Bins of equal mass under |filter|, and the end of the last; empty for the box, which needs none. The weights' mean is 1.
+/// Bins of equal mass under |filter|, and the end of the last; empty for the box, which needs none.
+/// The weights' mean is 1.
 std::vector<FilterBin> make_filter_table(const ReconstructionFilter& filter);
 
 } // namespace parhelion

@@ -1,4 +1,5 @@
-// The table of lights: every emitting primitive and every other emitter, picked in proportion to power.
+// The table of lights: every emitting primitive and every other emitter, picked in proportion to
+// power.
 #include "host/render/light_table.h"
 
 #include <glm/geometric.hpp>
@@ -48,7 +49,8 @@ Row make_row(EmitterKind kind, const Rgb& radiance) {
 
 /// The side a triangle emits from is its shading normal's: the record's winding follows that.
 bool normals_oppose_winding(const VertexRecord& v, const glm::dvec3& winding) {
-    glm::dvec3 sum(double{v.n0x} + v.n1x + v.n2x, double{v.n0y} + v.n1y + v.n2y, double{v.n0z} + v.n1z + v.n2z);
+    glm::dvec3 sum(double{v.n0x} + v.n1x + v.n2x, double{v.n0y} + v.n1y + v.n2y,
+                   double{v.n0z} + v.n1z + v.n2z);
     return glm::dot(sum, winding) < 0.0;
 }
 
@@ -86,7 +88,8 @@ Row primitive_row(const DeviceScene& scene, int index, const Rgb& radiance) {
         row.light.extra = side;
         row.area = pi * glm::length(glm::cross(point_b(p), point_c(p)));
         break;
-    default: row = triangle_row(scene, index, radiance);
+    default:
+        row = triangle_row(scene, index, radiance);
     }
     row.power = pi * row.area * brightness(radiance);
     row.primitive = index;
@@ -110,7 +113,8 @@ Row emitter_row(const SpotEmitter& e, double) {
     double transition = e.cutoff_angle - e.beam_width;
     row.light.cz = transition > 0.0 ? static_cast<float>(1.0 / transition) : 0.0f;
     row.light.extra = static_cast<float>(std::cos(e.beam_width));
-    row.power = 2.0 * pi * (1.0 - std::cos(0.5 * (e.cutoff_angle + e.beam_width))) * brightness(e.intensity);
+    row.power = 2.0 * pi * (1.0 - std::cos(0.5 * (e.cutoff_angle + e.beam_width))) *
+                brightness(e.intensity);
     return row;
 }
 
@@ -129,13 +133,21 @@ Row emitter_row(const ConstantEmitter& e, double scene_radius) {
 
 /// Half the diagonal of the box around all primitives; 1 for a scene without any.
 double scene_radius(const std::vector<PrimitiveRecord>& primitives) {
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-    auto grow = [&](const glm::dvec3& p, double r) { low = glm::min(low, p - r), high = glm::max(high, p + r); };
+    glm::dvec3 low(std::numeric_limits<double>::infinity()),
+        high(-std::numeric_limits<double>::infinity());
+    auto grow = [&](const glm::dvec3& p, double r) {
+        low = glm::min(low, p - r), high = glm::max(high, p + r);
+    };
     for (const PrimitiveRecord& p : primitives) {
         switch (p.flags & PRIMITIVE_KIND_MASK) {
-        case geometry_sphere: grow(point_a(p), p.radius); break;
-        case geometry_disk: grow(point_a(p), std::hypot(glm::length(point_b(p)), glm::length(point_c(p)))); break;
-        default: grow(point_a(p), 0.0), grow(point_b(p), 0.0), grow(point_c(p), 0.0);
+        case geometry_sphere:
+            grow(point_a(p), p.radius);
+            break;
+        case geometry_disk:
+            grow(point_a(p), std::hypot(glm::length(point_b(p)), glm::length(point_c(p))));
+            break;
+        default:
+            grow(point_a(p), 0.0), grow(point_b(p), 0.0), grow(point_c(p), 0.0);
         }
     }
     double radius = 0.5 * glm::length(high - low);
@@ -146,7 +158,8 @@ std::vector<Row> collect_rows(const Scene& scene, const DeviceScene& device) {
     std::vector<Row> rows;
     for (std::size_t i = 0; i < device.primitives.size(); i++) {
         const Shape& shape = scene.shapes[device.primitives[i].shape];
-        if (shape.radiance) rows.push_back(primitive_row(device, static_cast<int>(i), *shape.radiance));
+        if (shape.radiance)
+            rows.push_back(primitive_row(device, static_cast<int>(i), *shape.radiance));
     }
     double radius = scene_radius(device.primitives);
     for (const Emitter& emitter : scene.emitters)
@@ -160,7 +173,8 @@ std::vector<Row> collect_rows(const Scene& scene, const DeviceScene& device) {
 std::vector<LightAlias> make_alias_table(std::span<const double> weights) {
     std::size_t n = weights.size();
     double sum = 0.0;
-    for (double w : weights) sum += w;
+    for (double w : weights)
+        sum += w;
     std::vector<double> share(n);
     std::vector<int> small, large;
     for (std::size_t i = 0; i < n; i++) {
@@ -168,7 +182,8 @@ std::vector<LightAlias> make_alias_table(std::span<const double> weights) {
         (share[i] < 1.0 ? small : large).push_back(static_cast<int>(i));
     }
     std::vector<LightAlias> table(n);
-    for (std::size_t i = 0; i < n; i++) table[i] = {~0u, static_cast<int>(i)};
+    for (std::size_t i = 0; i < n; i++)
+        table[i] = {~0u, static_cast<int>(i)};
     while (!small.empty() && !large.empty()) {
         int s = small.back(), l = large.back();
         small.pop_back();

@@ -1,4 +1,5 @@
-// The table of lights: every emitting primitive and every other emitter, picked in proportion to power.
+// The table of lights: every emitting primitive and every other emitter, picked in proportion to
+// power.
 #pragma once
 
 #include "host/render/device_scene.h"
@@ -12,7 +13,8 @@ namespace parhelion {
 /// Vose 1991, "A linear algorithm for generating random numbers with a given distribution".
 std::vector<LightAlias> make_alias_table(std::span<const double> weights);
 
-/// Fills lights, light_aliases, constant_light and the primitives' light rows. Emitters without power are left out.
+/// Fills lights, light_aliases, constant_light and the primitives' light rows. Emitters without
+/// power are left out.
 void add_light_table(const Scene& scene, DeviceScene& out);
 
 } // namespace parhelion

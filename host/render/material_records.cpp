@@ -22,11 +22,13 @@ void set_transmittance(MaterialRecord& m, const Rgb& c) {
 }
 
 void set_conductor(MaterialRecord& m, const Rgb& eta, const Rgb& k) {
-    m.er = static_cast<float>(eta.r), m.eg = static_cast<float>(eta.g), m.eb = static_cast<float>(eta.b);
+    m.er = static_cast<float>(eta.r), m.eg = static_cast<float>(eta.g),
+    m.eb = static_cast<float>(eta.b);
     m.kr = static_cast<float>(k.r), m.kg = static_cast<float>(k.g), m.kb = static_cast<float>(k.b);
 }
 
-/// eta^2 - 1 from both sides in two floats each, so that the device can tell on which side of the critical angle a direction lies.
+/// eta^2 - 1 from both sides in two floats each, so that the device can tell on which side of the
+/// critical angle a direction lies.
 void set_interface(MaterialRecord& m, double eta) {
     double outside = (eta - 1.0) * (eta + 1.0), inside = -outside / (eta * eta);
     m.er = static_cast<float>(eta);
@@ -37,7 +39,8 @@ void set_interface(MaterialRecord& m, double eta) {
     m.kb = static_cast<float>(inside - m.kg);
 }
 
-void set_roughness(MaterialRecord& m, MicrofacetDistribution distribution, double alpha_u, double alpha_v) {
+void set_roughness(MaterialRecord& m, MicrofacetDistribution distribution, double alpha_u,
+                   double alpha_v) {
     m.distribution = distribution == MicrofacetDistribution::beckmann ? 1 : 0;
     m.alpha_u = static_cast<float>(alpha_u);
     m.alpha_v = static_cast<float>(alpha_v);
@@ -66,7 +69,9 @@ MaterialRecord pack_dielectric(MaterialKind kind, const Dielectric& b) {
 }
 
 MaterialRecord pack(const DielectricBsdf& b) { return pack_dielectric(material_dielectric, b); }
-MaterialRecord pack(const ThinDielectricBsdf& b) { return pack_dielectric(material_thindielectric, b); }
+MaterialRecord pack(const ThinDielectricBsdf& b) {
+    return pack_dielectric(material_thindielectric, b);
+}
 
 MaterialRecord pack(const RoughConductorBsdf& b) {
     MaterialRecord m = record(material_roughconductor);

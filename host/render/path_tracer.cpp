@@ -3,7 +3,6 @@
 
 #include "host/render/camera_record.h"
 #include "host/render/film_image.h"
-#include "host/render/filter_table.h"
 #include "host/render/scene_features.h"
 
 #include <fmt/format.h>
@@ -22,19 +21,24 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// Edges from the camera after which nothing more is to be seen.
 int longest_path(const Integrator& integrator) {
     switch (integrator.kind) {
-    case IntegratorKind::path: return integrator.max_depth < 0 ? std::numeric_limits<int>::max() : integrator.max_depth;
-    case IntegratorKind::direct: return 2;
+    case IntegratorKind::path:
+        return integrator.max_depth < 0 ? std::numeric_limits<int>::max() : integrator.max_depth;
+    case IntegratorKind::direct:
+        return 2;
     case IntegratorKind::depth:
     case IntegratorKind::normals:
-    case IntegratorKind::aov: return 1;
+    case IntegratorKind::aov:
+        return 1;
     }
     return 1;
 }
 
-RenderParams render_params(const Scene& scene, const DeviceScene& device, const WorkSizes& sizes, const AovPlan& aovs) {
+RenderParams render_params(const Scene& scene, const DeviceScene& device, const WorkSizes& sizes,
+                           const AovPlan& aovs) {
     RenderParams p{};
     p.camera = camera_record(scene.camera, scene.film.width, scene.film.height);
-    p.film_width = scene.film.width;
+    p.film_width = scene.film.width, p.film_height = scene.film.height;
+    p.sample_border = scene.film.sample_border;
     p.crop_x = scene.film.crop_x, p.crop_y = scene.film.crop_y;
     p.crop_width = scene.film.crop_width, p.crop_height = scene.film.crop_height;
     p.blocks_x = sizes.blocks_x;
@@ -43,8 +47,10 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.rr_depth = scene.integrator.rr_depth;
     p.light_count = static_cast<int>(device.lights.size());
     p.constant_light = device.constant_light;
-    p.filter_bins = device.filter_table.empty() ? 0 : static_cast<int>(device.filter_table.size()) - 1;
-    p.filter_radius = static_cast<float>(filter_radius(scene.film.filter));
+    // As in Mitsuba 3: a visible sky is part of the picture to `path`, and behind it to `direct`.
+    p.sky_covers = scene.integrator.kind == IntegratorKind::path && !scene.integrator.hide_emitters;
+    p.filter_bins =
+        device.filter_table.empty() ? 0 : static_cast<int>(device.filter_table.size()) - 1;
     p.path_capacity = sizes.path_capacity;
     p.state_stride = static_cast<int>(sizes.state_stride());
     p.segment_size = sizes.segment_size;
@@ -54,13 +60,14 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.camera_root = device.camera_root;
     p.root = device.root;
     std::fill(std::begin(p.aov_offset), std::end(p.aov_offset), -1);
-    for (const AovLayer& layer : aovs.layers) p.aov_offset[layer.kind] = layer.channel;
+    for (const AovLayer& layer : aovs.layers)
+        p.aov_offset[layer.kind] = layer.channel;
     return p;
 }
 
 /// All bounces of one wave, then its samples to the film.
-void trace_wave(Pipeline& pipeline, const WaveParams& wave, const WorkSizes& sizes, const RenderParams& params,
-                bool next_event, int work_group) {
+void trace_wave(Pipeline& pipeline, const WaveParams& wave, const WorkSizes& sizes,
+                const RenderParams& params, bool next_event, int work_group) {
     pipeline.set_wave(wave);
     pipeline.launch(Stage::generate, 0, sizes.segments, work_group);
     for (int depth = 0; depth < params.max_depth; depth++) {
@@ -68,15 +75,16 @@ void trace_wave(Pipeline& pipeline, const WaveParams& wave, const WorkSizes& siz
         pipeline.launch(Stage::shade, depth, sizes.segments, work_group);
         if (depth + 1 == params.max_depth) break;
         auto [paths, shadow_rays] = pipeline.read_counts();
-        if (next_event && shadow_rays > 0) pipeline.launch(Stage::shadow, depth, sizes.segments, work_group);
+        if (next_event && shadow_rays > 0)
+            pipeline.launch(Stage::shadow, depth, sizes.segments, work_group);
         if (paths == 0) break;
     }
     pipeline.launch(Stage::accumulate, 0, wave.block_count, work_group);
     pipeline.collect_times();
 }
 
-void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes, const RenderParams& params,
-                 bool next_event, int work_group, Progress& progress) {
+void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
+                 const RenderParams& params, bool next_event, int work_group, Progress& progress) {
     auto start = std::chrono::steady_clock::now();
     int samples = scene.sampler.samples_per_pixel, blocks = sizes.blocks_x * sizes.blocks_y;
     double total = static_cast<double>(samples) * blocks, done = 0.0;
@@ -84,7 +92,8 @@ void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
         int sample_count = std::min(sizes.samples_per_wave, samples - sample);
         for (int block = 0; block < blocks; block += sizes.blocks_per_wave) {
             int block_count = std::min(sizes.blocks_per_wave, blocks - block);
-            trace_wave(pipeline, {block, block_count, sample, sample_count}, sizes, params, next_event, work_group);
+            trace_wave(pipeline, {block, block_count, sample, sample_count}, sizes, params,
+                       next_event, work_group);
             done += static_cast<double>(sample_count) * block_count;
             double rate = done * BLOCK_PIXELS / seconds_since(start) / 1e6;
             progress.update(done / total, fmt::format("{:.2f} Mpaths/s", rate));
@@ -92,14 +101,16 @@ void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
     }
 }
 
-void add_counts(const std::array<std::uint64_t, statistic_count>& statistics, RenderReport& report) {
+void add_counts(const std::array<std::uint64_t, statistic_count>& statistics,
+                RenderReport& report) {
     report.camera_rays = report.paths = statistics[statistic_camera_rays];
     report.bounce_rays = statistics[statistic_bounce_rays];
     report.shadow_rays = statistics[statistic_shadow_rays];
     report.non_finite_samples = statistics[statistic_non_finite_samples];
 }
 
-RenderReport start_report(const Scene& scene, const Device& device, const DeviceScene& flat, int lanes) {
+RenderReport start_report(const Scene& scene, const Device& device, const DeviceScene& flat,
+                          int lanes) {
     constexpr std::uint64_t every = (std::uint64_t{1} << feature_count) - 1;
     RenderReport report;
     report.scene_file = scene.file;
@@ -119,7 +130,8 @@ RenderReport start_report(const Scene& scene, const Device& device, const Device
 
 } // namespace
 
-RenderResult render(const Scene& scene, const Device& device, const RenderOptions& options, Progress& progress) {
+RenderResult render(const Scene& scene, const Device& device, const RenderOptions& options,
+                    Progress& progress) {
     AovPlan aovs = plan_aovs(scene.integrator);
     int lanes = options.lanes > 0 ? options.lanes : device.lanes();
 
@@ -133,16 +145,19 @@ RenderResult render(const Scene& scene, const Device& device, const RenderOption
 
     progress.start("compiling kernels");
     start = std::chrono::steady_clock::now();
-    std::uint64_t features = options.all_features ? flat.features | neutral_features() : flat.features;
+    std::uint64_t features =
+        options.all_features ? flat.features | neutral_features() : flat.features;
     Pipeline pipeline(device, lanes, options.portable, features);
     result.report.compile_seconds = seconds_since(start);
     result.report.stages = pipeline.stage_reports();
     progress.finish(result.report.all_cached() ? "cached" : "compiled");
 
     start = std::chrono::steady_clock::now();
-    int film_channels = result_field_count + aovs.channels + (scene.integrator.second_moment ? 3 : 0);
-    WorkSizes sizes = work_sizes(scene.film.crop_width, scene.film.crop_height, scene.sampler.samples_per_pixel, lanes,
-                                 film_channels, options.split);
+    int film_channels =
+        result_field_count + aovs.channels + (scene.integrator.second_moment ? 3 : 0);
+    WorkSizes sizes =
+        work_sizes(scene.film.crop_width, scene.film.crop_height, scene.sampler.samples_per_pixel,
+                   lanes, film_channels, options.split);
     RenderParams params = render_params(scene, flat, sizes, aovs);
     pipeline.upload(flat);
     pipeline.allocate(sizes);
@@ -152,15 +167,17 @@ RenderResult render(const Scene& scene, const Device& device, const RenderOption
     progress.start("rendering");
     start = std::chrono::steady_clock::now();
     bool next_event = flat.features & feature_bit(feature_next_event);
-    trace_image(pipeline, scene, sizes, params, next_event, options.split.work_group_size, progress);
+    trace_image(pipeline, scene, sizes, params, next_event, options.split.work_group_size,
+                progress);
     result.report.render_seconds = seconds_since(start);
     add_counts(pipeline.read_statistics(), result.report);
     result.report.stages = pipeline.stage_reports();
     result.report.device_pool_bytes = pipeline.pool_bytes();
     result.report.device_film_bytes = pipeline.film_bytes();
-    progress.finish(fmt::format("{:.2f} Mpaths/s, {:.2f} Mrays/s",
-                                static_cast<double>(result.report.paths) / result.report.render_seconds / 1e6,
-                                static_cast<double>(result.report.rays()) / result.report.render_seconds / 1e6));
+    progress.finish(fmt::format(
+        "{:.2f} Mpaths/s, {:.2f} Mrays/s",
+        static_cast<double>(result.report.paths) / result.report.render_seconds / 1e6,
+        static_cast<double>(result.report.rays()) / result.report.render_seconds / 1e6));
     result.image = film_image(pipeline.read_film(), sizes, scene, aovs);
     pipeline.store_programs();
     return result;

@@ -13,8 +13,8 @@ namespace parhelion {
 
 struct RenderOptions {
     WorkSplit split;
-    int lanes = 0;            ///< 0: what suits the device
-    bool portable = false;    ///< kernels without x86 intrinsics
+    int lanes = 0;             ///< 0: what suits the device
+    bool portable = false;     ///< kernels without x86 intrinsics
     bool all_features = false; ///< kernels that can do everything, whatever the scene needs
 };
 
@@ -23,7 +23,9 @@ struct RenderResult {
     RenderReport report;
 };
 
-/// Renders a scene whose film has its crop resolved. The image depends on the scene (and its seed) alone, to the bit.
-RenderResult render(const Scene& scene, const Device& device, const RenderOptions& options, Progress& progress);
+/// Renders a scene whose film has its crop resolved. The image depends on the scene (and its seed)
+/// alone, to the bit.
+RenderResult render(const Scene& scene, const Device& device, const RenderOptions& options,
+                    Progress& progress);
 
 } // namespace parhelion

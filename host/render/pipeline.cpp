@@ -12,7 +12,8 @@ int rounded_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
 // Parameters behind the buffers in KERNEL_PARAMETERS.
 #define COUNT_ONE(type, name) +1
 constexpr cl_uint buffer_count = 0 SCENE_BUFFERS(COUNT_ONE) WORK_BUFFERS(COUNT_ONE);
-constexpr cl_uint params_argument = buffer_count, wave_argument = buffer_count + 1, depth_argument = buffer_count + 2;
+constexpr cl_uint params_argument = buffer_count, wave_argument = buffer_count + 1,
+                  depth_argument = buffer_count + 2;
 
 } // namespace
 
@@ -21,22 +22,27 @@ std::size_t WorkBuffers::bytes() const {
     return 0 WORK_BUFFERS(ADD_BYTES);
 }
 
-WorkSizes work_sizes(int crop_width, int crop_height, int samples, int lanes, int film_channels, const WorkSplit& split) {
+WorkSizes work_sizes(int crop_width, int crop_height, int samples, int lanes, int film_channels,
+                     const WorkSplit& split) {
     WorkSizes s;
     s.blocks_x = (crop_width + 3) / 4;
     s.blocks_y = (crop_height + 3) / 4;
     int groups = std::max(1, split.pool_paths / BLOCK_PIXELS);
-    // Few samples of many blocks, so that neighbouring pixels share a segment; more where the film is too small to fill the pool.
+    // Few samples of many blocks, so that neighbouring pixels share a segment; more where the film
+    // is too small to fill the pool.
     constexpr int usual = 16;
     std::int64_t blocks = static_cast<std::int64_t>(s.blocks_x) * s.blocks_y;
     int to_fill = static_cast<int>(std::max<std::int64_t>(usual, groups / blocks));
     s.samples_per_wave = std::min({samples, to_fill, groups});
-    s.blocks_per_wave = static_cast<int>(std::min<std::int64_t>(groups / s.samples_per_wave, blocks));
+    s.blocks_per_wave =
+        static_cast<int>(std::min<std::int64_t>(groups / s.samples_per_wave, blocks));
     s.path_capacity = s.blocks_per_wave * s.samples_per_wave * BLOCK_PIXELS;
-    s.segment_size = lanes == 1 ? std::max(1, split.segment_paths) : rounded_up(std::max(1, split.segment_paths), 16);
+    s.segment_size = lanes == 1 ? std::max(1, split.segment_paths)
+                                : rounded_up(std::max(1, split.segment_paths), 16);
     s.segment_size = std::min(s.segment_size, s.path_capacity);
     s.segment_stride = s.segment_size + (lanes == 1 ? 0 : SEGMENT_PADDING);
-    s.segments = rounded_up((s.path_capacity + s.segment_size - 1) / s.segment_size, split.work_group_size);
+    s.segments =
+        rounded_up((s.path_capacity + s.segment_size - 1) / s.segment_size, split.work_group_size);
     s.film_channels = film_channels;
     return s;
 }
@@ -93,7 +99,8 @@ void Pipeline::allocate(const WorkSizes& s) {
     work_.counts = {context_, "counts", 2 * static_cast<std::size_t>(s.segments)};
     work_.statistics = {context_, "statistics", statistic_count * counted};
     work_.film = {context_, "film", 2 * s.film_channels * s.film_pixels()};
-    // Leftovers behind the last path are read (and ignored): they must be numbers the first time too.
+    // Leftovers behind the last path are read (and ignored): they must be numbers the first time
+    // too.
     work_.path_state.fill_zero(queue_);
     work_.counts.fill_zero(queue_);
     work_.statistics.fill_zero(queue_);
@@ -114,7 +121,8 @@ void Pipeline::bind(const RenderParams& params) {
 }
 
 void Pipeline::set_wave(const WaveParams& wave) {
-    for (cl::Kernel& kernel : kernels_) kernel.setArg(wave_argument, wave);
+    for (cl::Kernel& kernel : kernels_)
+        kernel.setArg(wave_argument, wave);
 }
 
 void Pipeline::launch(Stage stage, int depth, int work_items, int work_group_size) {
@@ -122,8 +130,8 @@ void Pipeline::launch(Stage stage, int depth, int work_items, int work_group_siz
     kernels_[i].setArg(depth_argument, depth);
     std::size_t global = rounded_up(work_items, work_group_size);
     cl::Event event;
-    queue_.enqueueNDRangeKernel(kernels_[i], cl::NullRange, cl::NDRange(global), cl::NDRange(work_group_size), nullptr,
-                                &event);
+    queue_.enqueueNDRangeKernel(kernels_[i], cl::NullRange, cl::NDRange(global),
+                                cl::NDRange(work_group_size), nullptr, &event);
     pending_.emplace_back(i, event);
 }
 
@@ -147,7 +155,8 @@ std::array<std::uint64_t, statistic_count> Pipeline::read_statistics() {
     std::vector<ulong> values(work_.statistics.count());
     work_.statistics.read(queue_, values.data());
     std::array<std::uint64_t, statistic_count> sums{};
-    for (std::size_t i = 0; i < values.size(); i++) sums[i % statistic_count] += values[i];
+    for (std::size_t i = 0; i < values.size(); i++)
+        sums[i % statistic_count] += values[i];
     return sums;
 }
 
@@ -163,7 +172,8 @@ void Pipeline::collect_times() {
 }
 
 void Pipeline::store_programs() const {
-    for (const Program& program : programs_) program.store(cache_);
+    for (const Program& program : programs_)
+        program.store(cache_);
 }
 
 std::size_t Pipeline::pool_bytes() const { return work_.bytes() - work_.film.bytes(); }

@@ -15,8 +15,8 @@ namespace parhelion {
 
 /// How work is split. None of these changes a bit of the image.
 struct WorkSplit {
-    int pool_paths = 1 << 16;  ///< paths in flight: the memory of a render, whatever its resolution
-    int segment_paths = 2048;  ///< paths one work-item owns; made a multiple of 16
+    int pool_paths = 1 << 16; ///< paths in flight: the memory of a render, whatever its resolution
+    int segment_paths = 2048; ///< paths one work-item owns; made a multiple of 16
     int work_group_size = 1;
 };
 
@@ -40,7 +40,8 @@ struct WorkSizes {
     std::size_t state_stride() const { return static_cast<std::size_t>(segments) * segment_stride; }
 };
 
-WorkSizes work_sizes(int crop_width, int crop_height, int samples, int lanes, int film_channels, const WorkSplit& split);
+WorkSizes work_sizes(int crop_width, int crop_height, int samples, int lanes, int film_channels,
+                     const WorkSplit& split);
 
 class Pipeline {
 public:

@@ -10,15 +10,14 @@ namespace parhelion {
 namespace {
 
 nlohmann::json to_json(const StageReport& s) {
-    return {{"name", s.name},
-            {"kernel_seconds", s.kernel_seconds},
-            {"launches", s.launches},
-            {"compile_seconds", s.compile_seconds},
-            {"cached", s.cached},
-            {"features", s.features}};
+    return {{"name", s.name},         {"kernel_seconds", s.kernel_seconds},
+            {"launches", s.launches}, {"compile_seconds", s.compile_seconds},
+            {"cached", s.cached},     {"features", s.features}};
 }
 
-double rate(std::uint64_t count, double seconds) { return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0; }
+double rate(std::uint64_t count, double seconds) {
+    return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
+}
 
 } // namespace
 
@@ -28,7 +27,8 @@ bool RenderReport::all_cached() const {
 
 nlohmann::json to_json(const RenderReport& r) {
     nlohmann::json stages = nlohmann::json::array();
-    for (const StageReport& s : r.stages) stages.push_back(to_json(s));
+    for (const StageReport& s : r.stages)
+        stages.push_back(to_json(s));
     return {{"scene", r.scene_file},
             {"device", {{"name", r.device}, {"driver", r.driver}, {"lanes", r.lanes}}},
             {"image",

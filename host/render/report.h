@@ -22,12 +22,14 @@ struct RenderReport {
     std::string scene_file, device, driver;
     int lanes = 1, width = 0, height = 0, samples_per_pixel = 0;
     std::uint32_t seed = 0;
-    double load_seconds = 0.0, bvh_seconds = 0.0, compile_seconds = 0.0, upload_seconds = 0.0, render_seconds = 0.0,
-           write_seconds = 0.0;
+    double load_seconds = 0.0, bvh_seconds = 0.0, compile_seconds = 0.0, upload_seconds = 0.0,
+           render_seconds = 0.0, write_seconds = 0.0;
     std::vector<StageReport> stages;
-    std::uint64_t paths = 0, camera_rays = 0, bounce_rays = 0, shadow_rays = 0, non_finite_samples = 0;
+    std::uint64_t paths = 0, camera_rays = 0, bounce_rays = 0, shadow_rays = 0,
+                  non_finite_samples = 0;
     std::uint64_t primitives = 0, lights = 0;
-    std::uint64_t device_scene_bytes = 0, device_pool_bytes = 0, device_film_bytes = 0, host_peak_bytes = 0;
+    std::uint64_t device_scene_bytes = 0, device_pool_bytes = 0, device_film_bytes = 0,
+                  host_peak_bytes = 0;
     std::vector<std::string> features, skipped_features;
 
     std::uint64_t rays() const { return camera_rays + bounce_rays + shadow_rays; }

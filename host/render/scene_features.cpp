@@ -38,16 +38,20 @@ void add_bsdf(const RoughDielectricBsdf& b, FeatureSet& set) {
 }
 
 bool is_opaque(const Bsdf& bsdf) {
-    return std::holds_alternative<DiffuseBsdf>(bsdf) || std::holds_alternative<ConductorBsdf>(bsdf) ||
+    return std::holds_alternative<DiffuseBsdf>(bsdf) ||
+           std::holds_alternative<ConductorBsdf>(bsdf) ||
            std::holds_alternative<RoughConductorBsdf>(bsdf);
 }
 
 void add_materials(const Scene& scene, FeatureSet& set) {
-    for (const Material& m : scene.materials) std::visit([&](const auto& b) { add_bsdf(b, set); }, m.bsdf);
+    for (const Material& m : scene.materials)
+        std::visit([&](const auto& b) { add_bsdf(b, set); }, m.bsdf);
     for (const Shape& shape : scene.shapes) {
         bool differs = shape.material_front != shape.material_back;
-        bool turned = shape.material_back >= 0 && is_opaque(scene.materials[shape.material_back].bsdf);
-        // A front of null and a black back differ too, but a one-sided opaque front absorbs below by itself.
+        bool turned =
+            shape.material_back >= 0 && is_opaque(scene.materials[shape.material_back].bsdf);
+        // A front of null and a black back differ too, but a one-sided opaque front absorbs below
+        // by itself.
         bool black_back = shape.material_back < 0 && shape.material_front >= 0 &&
                           is_opaque(scene.materials[shape.material_front].bsdf);
         set.add_if((differs && !black_back) || turned, feature_back_materials);
@@ -79,13 +83,14 @@ void add_shapes(const Scene& scene, bool uv, FeatureSet& set) {
 
 void add_emitter(const PointEmitter&, FeatureSet& set) { set.add(feature_emitter_point); }
 void add_emitter(const SpotEmitter&, FeatureSet& set) { set.add(feature_emitter_spot); }
-void add_emitter(const DirectionalEmitter&, FeatureSet& set) { set.add(feature_emitter_directional); }
+void add_emitter(const DirectionalEmitter&, FeatureSet& set) {
+    set.add(feature_emitter_directional);
+}
 void add_emitter(const ConstantEmitter&, FeatureSet& set) { set.add(feature_emitter_constant); }
 
-constexpr std::uint64_t meetable_emitters = feature_bit(feature_emitter_area_triangle) |
-                                            feature_bit(feature_emitter_area_sphere) |
-                                            feature_bit(feature_emitter_area_disk) |
-                                            feature_bit(feature_emitter_constant);
+constexpr std::uint64_t meetable_emitters =
+    feature_bit(feature_emitter_area_triangle) | feature_bit(feature_emitter_area_sphere) |
+    feature_bit(feature_emitter_area_disk) | feature_bit(feature_emitter_constant);
 
 #define EMITTER_BIT(name) | feature_bit(feature_emitter_##name)
 constexpr std::uint64_t all_emitters = 0 EMITTERS(EMITTER_BIT);
@@ -101,7 +106,8 @@ void add_transport(const Integrator& integrator, FeatureSet& set) {
     // After the last scattering only emission can be met: with point lights alone nothing is.
     bool scatters = bounces && integrator.bsdf_samples && (meetable || longest < 0 || longest >= 3);
     set.add_if(scatters, feature_scattering);
-    set.add_if(scatters && (longest < 0 || longest > integrator.rr_depth), feature_russian_roulette);
+    set.add_if(scatters && (longest < 0 || longest > integrator.rr_depth),
+               feature_russian_roulette);
     set.add_if(integrator.hide_emitters, feature_hide_emitters);
 }
 
@@ -112,7 +118,8 @@ std::uint64_t scene_features(const Scene& scene) {
     const Integrator& integrator = scene.integrator;
     add_materials(scene, set);
     add_shapes(scene, reads_uv(scene, set), set);
-    for (const Emitter& e : scene.emitters) std::visit([&](const auto& x) { add_emitter(x, set); }, e);
+    for (const Emitter& e : scene.emitters)
+        std::visit([&](const auto& x) { add_emitter(x, set); }, e);
     set.add_if(scene.camera.aperture_radius > 0.0, feature_thin_lens);
     set.add_if(scene.film.filter.kind != FilterKind::box, feature_reconstruction_filter);
     set.add_if(integrator.kind == IntegratorKind::normals, feature_view_normals);
@@ -127,11 +134,12 @@ std::uint64_t scene_features(const Scene& scene) {
 std::uint64_t neutral_features() {
 #define MATERIAL_BIT(name, sides) | feature_bit(feature_bsdf_##name)
 #define SHAPE_BIT(name) | feature_bit(feature_shape_##name)
-    // Not anisotropy (turns the frame), nor what decides which light is counted, nor views and film layouts. Vertex records and
-    // the sky's light row exist only where they are needed.
+    // Not anisotropy (turns the frame), nor what decides which light is counted, nor views and film
+    // layouts. Vertex records and the sky's light row exist only where they are needed.
     return 0 MATERIALS(MATERIAL_BIT) GEOMETRIES(SHAPE_BIT) |
-           (all_emitters & ~feature_bit(feature_emitter_constant)) | feature_bit(feature_back_materials) |
-           feature_bit(feature_ggx) | feature_bit(feature_beckmann);
+           (all_emitters & ~feature_bit(feature_emitter_constant)) |
+           feature_bit(feature_back_materials) | feature_bit(feature_ggx) |
+           feature_bit(feature_beckmann);
 }
 
 std::vector<std::string> feature_names(std::uint64_t mask) {

@@ -9,11 +9,12 @@
 
 namespace parhelion {
 
-/// Mask over enum Feature (kernels/shared/features.h). Depends on kinds only, never on values such as positions or colours.
+/// Mask over enum Feature (kernels/shared/features.h). Depends on kinds only, never on values such
+/// as positions or colours.
 std::uint64_t scene_features(const Scene& scene);
 
-/// Features that cost time but change no image where a scene does not need them: every kind of material, emitter and shape, and
-/// what looks for vertex normals, back materials and so on.
+/// Features that cost time but change no image where a scene does not need them: every kind of
+/// material, emitter and shape, and what looks for vertex normals, back materials and so on.
 std::uint64_t neutral_features();
 
 } // namespace parhelion

@@ -1,4 +1,5 @@
-// The stages of the wavefront pipeline: their list, and the features each of their kernels can make use of.
+// The stages of the wavefront pipeline: their list, and the features each of their kernels can make
+// use of.
 #pragma once
 
 #include "host/render/device_scene.h"
@@ -17,16 +18,20 @@ enum class Stage { STAGES(STAGE_ENUM) };
 inline constexpr std::array stage_names{STAGES(STAGE_NAME)};
 inline constexpr std::size_t stage_count = stage_names.size();
 
-/// The part of a feature mask that can change the stage's program; the rest would only make more programs of the same content.
+/// The part of a feature mask that can change the stage's program; the rest would only make more
+/// programs of the same content.
 constexpr std::uint64_t stage_features(Stage stage) {
 #define SHAPE_BIT(name) | feature_bit(feature_shape_##name)
     constexpr std::uint64_t shapes = 0 GEOMETRIES(SHAPE_BIT);
     constexpr std::uint64_t film = feature_bit(feature_reconstruction_filter);
     switch (stage) {
-    case Stage::generate: return film | feature_bit(feature_thin_lens);
+    case Stage::generate:
+        return film | feature_bit(feature_thin_lens);
     case Stage::intersect:
-    case Stage::shadow: return shapes;
-    case Stage::accumulate: return feature_bit(feature_moments);
+    case Stage::shadow:
+        return shapes;
+    case Stage::accumulate:
+        return feature_bit(feature_moments);
     case Stage::shade:
         return ~(film | feature_bit(feature_thin_lens) | feature_bit(feature_moments));
     }

@@ -9,8 +9,9 @@
 namespace parhelion {
 
 struct LoadOptions {
-    std::map<std::string, std::string> parameters; ///< -D name=value, replacing the file's <default>s
-    bool allow_outside = false;                    ///< let the scene name files outside its own folder
+    std::map<std::string, std::string>
+        parameters;             ///< -D name=value, replacing the file's <default>s
+    bool allow_outside = false; ///< let the scene name files outside its own folder
 };
 
 /// Loads a scene (the format is chosen by the file's extension).

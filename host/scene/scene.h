@@ -1,6 +1,8 @@
-// The scene as its author wrote it: host types, double precision, names and places kept for messages.
+// The scene as its author wrote it: host types, double precision, names and places kept for
+// messages.
 //
-// Geometry is in world space (transforms are already applied); nothing here knows about devices or kernels.
+// Geometry is in world space (transforms are already applied); nothing here knows about devices or
+// kernels.
 #pragma once
 
 #include "host/error.h"
@@ -19,9 +21,11 @@
 
 namespace parhelion {
 
-using Rgb = glm::dvec3; ///< linear sRGB primaries, D65 white; radiometric unit given where it is used
+using Rgb =
+    glm::dvec3; ///< linear sRGB primaries, D65 white; radiometric unit given where it is used
 
-// ---------------------------------------------------------------------------------------------- materials
+// ----------------------------------------------------------------------------------------------
+// materials
 
 enum class MicrofacetDistribution { ggx, beckmann };
 
@@ -69,8 +73,8 @@ struct RoughDielectricBsdf {
 /// Passes every ray straight on.
 struct NullBsdf {};
 
-using Bsdf = std::variant<DiffuseBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, RoughConductorBsdf,
-                          RoughDielectricBsdf, NullBsdf>;
+using Bsdf = std::variant<DiffuseBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf,
+                          RoughConductorBsdf, RoughDielectricBsdf, NullBsdf>;
 
 struct Material {
     std::string id; ///< the author's id, or a made-up one ("bsdf 3")
@@ -78,18 +82,22 @@ struct Material {
     Bsdf bsdf;
 };
 
-// ---------------------------------------------------------------------------------------------- shapes
+// ----------------------------------------------------------------------------------------------
+// shapes
 
 /// Triangles with shared vertices. `normals` and `uvs` are empty or as long as `positions`.
-/// `flip_normals` is applied on loading (winding and vertex normals), `face_normals` drops the vertex normals.
+/// `flip_normals` is applied on loading (winding and vertex normals), `face_normals` drops the
+/// vertex normals.
 struct Mesh {
     std::vector<glm::dvec3> positions;
     std::vector<glm::dvec3> normals; ///< unit length
     std::vector<glm::dvec2> uvs;
-    std::vector<glm::uvec3> triangles; ///< counter-clockwise seen from the side the geometric normal points to
+    std::vector<glm::uvec3>
+        triangles; ///< counter-clockwise seen from the side the geometric normal points to
 };
 
-/// Analytic sphere. The axes (unit, orthogonal, right-handed up to a mirror) carry the uv parametrisation.
+/// Analytic sphere. The axes (unit, orthogonal, right-handed up to a mirror) carry the uv
+/// parametrisation.
 struct Sphere {
     glm::dvec3 center{0.0};
     double radius = 1.0;
@@ -97,8 +105,9 @@ struct Sphere {
     bool flip_normals = false; ///< the normal points to the centre
 };
 
-/// Analytic disk { center + a*edge_u + b*edge_v : a^2 + b^2 <= 1 }; an ellipse where the edges are not orthogonal and
-/// equally long. The normal is along cross(edge_u, edge_v), reversed by `flip_normals`.
+/// Analytic disk { center + a*edge_u + b*edge_v : a^2 + b^2 <= 1 }; an ellipse where the edges are
+/// not orthogonal and equally long. The normal is along cross(edge_u, edge_v), reversed by
+/// `flip_normals`.
 struct Disk {
     glm::dvec3 center{0.0};
     glm::dvec3 edge_u{1, 0, 0}, edge_v{0, 1, 0};
@@ -114,21 +123,25 @@ struct Shape {
     std::string plugin; ///< "obj", "sphere", ...
     SourceLocation location;
     Geometry geometry;
-    int material_front = no_material; ///< index into Scene::materials; the side the normal points to
-    /// The other side. `twosided` gives it a material; otherwise equal to material_front for BSDFs that look at both
-    /// sides themselves (dielectrics, null) and `no_material` (black) for the rest.
+    int material_front =
+        no_material; ///< index into Scene::materials; the side the normal points to
+    /// The other side. `twosided` gives it a material; otherwise equal to material_front for BSDFs
+    /// that look at both sides themselves (dielectrics, null) and `no_material` (black) for the
+    /// rest.
     int material_back = no_material;
     std::optional<Rgb> radiance; ///< area emitter on the front side, W/(m^2 sr)
 };
 
-// ---------------------------------------------------------------------------------------------- emitters
+// ----------------------------------------------------------------------------------------------
+// emitters
 
 struct PointEmitter {
     glm::dvec3 position{0.0};
     Rgb intensity{1.0}; ///< W/sr
 };
 
-/// Full intensity inside `beam_width`, falling linearly in angle to zero at `cutoff_angle` (both half angles, radians).
+/// Full intensity inside `beam_width`, falling linearly in angle to zero at `cutoff_angle` (both
+/// half angles, radians).
 struct SpotEmitter {
     glm::dvec3 position{0.0};
     glm::dvec3 direction{0, 0, 1}; ///< unit, the axis of the cone
@@ -148,16 +161,20 @@ struct ConstantEmitter {
 
 using Emitter = std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter>;
 
-// ---------------------------------------------------------------------------------------------- sensor and film
+// ----------------------------------------------------------------------------------------------
+// sensor and film
 
 enum class FovAxis { x, y, diagonal, smaller, larger };
 
-/// Pinhole or thin-lens camera. Camera space: looks along +z, +y is up, +x is to the LEFT of the image (Mitsuba's
-/// convention: to_world is a rotation and translation, in rare files with a mirror, and image x runs along camera -x).
+/// Pinhole or thin-lens camera. Camera space: looks along +z, +y is up, +x is to the LEFT of the
+/// image (Mitsuba's convention: to_world is a rotation and translation, in rare files with a
+/// mirror, and image x runs along camera -x).
 struct Camera {
     glm::dmat4 to_world{1.0};
-    std::optional<double> fov_degrees;      ///< full angle along fov_axis; absent when focal_length_mm is given
-    std::optional<double> focal_length_mm;  ///< of a 35 mm film (24 mm x 36 mm: full diagonal 43.27 mm)
+    std::optional<double>
+        fov_degrees; ///< full angle along fov_axis; absent when focal_length_mm is given
+    std::optional<double>
+        focal_length_mm; ///< of a 35 mm film (24 mm x 36 mm: full diagonal 43.27 mm)
     FovAxis fov_axis = FovAxis::x;
     double near_clip = 1e-2, far_clip = 1e4; ///< distances along the optical axis, world units
     glm::dvec2 principal_point_offset{0.0};  ///< in fractions of the film width and height
@@ -173,17 +190,19 @@ enum class FilterKind { box, tent, gaussian, mitchell, catmullrom, lanczos };
 /// Separable reconstruction filter; the parameters a kind does not have are unused.
 struct ReconstructionFilter {
     FilterKind kind = FilterKind::gaussian;
-    double radius = 0.0;       ///< tent; 0: the kind's default
-    double stddev = 0.5;       ///< gaussian, pixels
-    double mitchell_a = 1.0 / 3.0, mitchell_b = 1.0 / 3.0; ///< Mitchell and Netravali's B and C, named so in the file
+    double radius = 0.0; ///< tent; 0: the kind's default
+    double stddev = 0.5; ///< gaussian, pixels
+    double mitchell_a = 1.0 / 3.0,
+           mitchell_b = 1.0 / 3.0; ///< Mitchell and Netravali's B and C, named so in the file
     int lanczos_lobes = 3;
 };
 
 struct Film {
     int width = 768, height = 576;
     int crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0; ///< 0 x 0: the whole film
-    PixelFormat pixel_format = PixelFormat::rgba;
-    ComponentFormat component_format = ComponentFormat::float16;
+    PixelFormat pixel_format = PixelFormat::rgb;
+    ComponentFormat component_format = ComponentFormat::float32;
+    bool sample_border = false; ///< the filter also reaches for light beyond the edge of the film
     ReconstructionFilter filter;
 };
 
@@ -198,21 +217,26 @@ struct AovRequest {
 
 struct Integrator {
     IntegratorKind kind = IntegratorKind::path;
-    int max_depth = -1;        ///< in edges from the camera: 1 shows emitters only, 2 direct light; -1 no limit
-    int rr_depth = 5;          ///< Russian roulette starts after this many vertices
+    int max_depth =
+        -1; ///< in edges from the camera: 1 shows emitters only, 2 direct light; -1 no limit
+    int rr_depth = 5; ///< Russian roulette starts after this many vertices
     bool hide_emitters = false;
-    bool second_moment = false; ///< wrapped in `moment`: also store the mean of the squared radiance
-    bool emitter_samples = true, bsdf_samples = true; ///< `direct`: which of the two strategies are used
+    bool second_moment =
+        false; ///< wrapped in `moment`: also store the mean of the squared radiance
+    bool emitter_samples = true,
+         bsdf_samples = true; ///< `direct`: which of the two strategies are used
     std::vector<AovRequest> aovs;
 };
 
 struct Sampler {
-    std::string plugin = "independent"; ///< as written; every kind is mapped to ours (see Scene::notes)
+    std::string plugin =
+        "independent"; ///< as written; every kind is mapped to ours (see Scene::notes)
     int samples_per_pixel = 16;
     std::uint32_t seed = 0;
 };
 
-// ---------------------------------------------------------------------------------------------- scene
+// ----------------------------------------------------------------------------------------------
+// scene
 
 struct Scene {
     std::string file;
@@ -223,7 +247,8 @@ struct Scene {
     Film film;
     Integrator integrator;
     Sampler sampler;
-    std::vector<std::string> notes; ///< what was mapped or defaulted and the user should be told, one line each
+    std::vector<std::string>
+        notes; ///< what was mapped or defaulted and the user should be told, one line each
 };
 
 } // namespace parhelion

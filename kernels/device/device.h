@@ -1,14 +1,14 @@
 // What every kernel starts from: the shared maths, the buffers and the common parameters.
 
-#include "shared/types.h"
+#include "device/buffers.h"
 #include "shared/features.h"
 #include "shared/shared.h"
-#include "device/buffers.h"
+#include "shared/types.h"
 
-#define SCENE_PARAMETER(type, name) global const type* restrict name,
-#define WORK_PARAMETER(type, name) global type* restrict name,
+#define SCENE_PARAMETER(type, name) global const type *restrict name,
+#define WORK_PARAMETER(type, name) global type *restrict name,
 #define KERNEL_PARAMETERS                                                                          \
-    SCENE_BUFFERS(SCENE_PARAMETER) WORK_BUFFERS(WORK_PARAMETER)                                    \
-    const RenderParams params, const WaveParams wave, const int depth
+    SCENE_BUFFERS(SCENE_PARAMETER)                                                                 \
+    WORK_BUFFERS(WORK_PARAMETER) const RenderParams params, const WaveParams wave, const int depth
 
 FN int wave_paths(WaveParams w) { return w.block_count * w.sample_count * BLOCK_PIXELS; }

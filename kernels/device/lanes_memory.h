@@ -1,30 +1,50 @@
-// Moving lanes between memory and registers: contiguous, packed (survivors only), scattered, and 64-byte records.
+// Moving lanes between memory and registers: contiguous, packed (survivors only), scattered, and
+// 64-byte records.
 
 #define LOAD_REAL(p) (*(global const Real*)(p))
 #define LOAD_INT(p) (*(global const Int*)(p))
 #define STORE_REAL(p, v) (*(global Real*)(p) = (v))
 #define STORE_INT(p, v) (*(global Int*)(p) = (v))
 
-typedef struct { Real word[16]; } Record;
+typedef struct {
+    Real word[16];
+} Record;
 
 #if LANES == 1
-// ------------------------------------------------------------------------------------------------- one lane
-FN void store_packed(global float* p, Real v, uint bits) { if (bits) *p = v; }
-FN void store_packed_int(global int* p, Int v, uint bits) { if (bits) *p = v; }
+// -------------------------------------------------------------------------------------------------
+// one lane
+FN void store_packed(global float* p, Real v, uint bits) {
+    if (bits) *p = v;
+}
+FN void store_packed_int(global int* p, Int v, uint bits) {
+    if (bits) *p = v;
+}
 FN Record load_record(global const float* records, Int index) {
     Record r;
     global const float* p = records + 16 * (long)index;
-    for (int k = 0; k < 16; k++) r.word[k] = p[k];
+    for (int k = 0; k < 16; k++)
+        r.word[k] = p[k];
     return r;
 }
 FN Real gather(global const float* p, Int index) { return p[index]; }
-FN void scatter_add(global float* p, Int index, Real v, uint bits) { if (bits) p[index] += v; }
-FN void scatter(global float* p, Int index, Real v, uint bits) { if (bits) p[index] = v; }
+FN void scatter_add(global float* p, Int index, Real v, uint bits) {
+    if (bits) p[index] += v;
+}
+FN void scatter(global float* p, Int index, Real v, uint bits) {
+    if (bits) p[index] = v;
+}
 
 #else
-// ----------------------------------------------------------------------------------------------- many lanes
-typedef union { Real lanes; float at[LANES]; } RealLanes;
-typedef union { Int lanes; int at[LANES]; } IntLanes;
+// -----------------------------------------------------------------------------------------------
+// many lanes
+typedef union {
+    Real lanes;
+    float at[LANES];
+} RealLanes;
+typedef union {
+    Int lanes;
+    int at[LANES];
+} IntLanes;
 
 #ifdef LANE_AVX512
 #if LANES == 16
@@ -63,7 +83,8 @@ FN Real gather(global const float* p, Int index) {
     IntLanes i;
     RealLanes r;
     i.lanes = index;
-    for (int k = 0; k < LANES; k++) r.at[k] = p[i.at[k]];
+    for (int k = 0; k < LANES; k++)
+        r.at[k] = p[i.at[k]];
     return r.lanes;
 }
 
@@ -108,7 +129,8 @@ FN Record load_record(global const float* records, Int index) {
     i.lanes = index;
     float16 a[16], b[16];
 #pragma unroll
-    for (int k = 0; k < 16; k++) a[k] = rows[i.at[k]];
+    for (int k = 0; k < 16; k++)
+        a[k] = rows[i.at[k]];
 #pragma unroll
     for (int k = 0; k < 16; k += 2) {
         b[k] = PAIRS_LOW(a[k], a[k + 1]);
@@ -137,7 +159,8 @@ FN Record load_record(global const float* records, Int index) {
 #else
 FN Record load_record(global const float* records, Int index) {
     Record r;
-    for (int k = 0; k < 16; k++) r.word[k] = gather(records + k, index * 16);
+    for (int k = 0; k < 16; k++)
+        r.word[k] = gather(records + k, index * 16);
     return r;
 }
 #endif
@@ -149,7 +172,7 @@ FN Record load_record(global const float* records, Int index) {
 #define LOADER(Struct, FIELDS, UNPACK, ENUM)                                                       \
     enum { FIELDS(ENUM) };                                                                         \
     FN Struct load_##Struct(global const Struct##Record* records, Int index) {                     \
-        Record record = load_record((global const float*)records, index);                         \
+        Record record = load_record((global const float*)records, index);                          \
         Struct s;                                                                                  \
         FIELDS(UNPACK)                                                                             \
         return s;                                                                                  \

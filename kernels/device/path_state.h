@@ -1,25 +1,31 @@
 // Reading and writing a packet of paths or shadow rays, and the paths' results.
 
 #define PATH_LOAD_REAL(name) LOAD_REAL(path_state + (long)path_##name * params.state_stride + at)
-#define PATH_LOAD_INT(name) LOAD_INT((global const int*)path_state + (long)path_##name * params.state_stride + at)
-#define PATH_PACK_REAL(name, v) store_packed(path_state + (long)path_##name * params.state_stride + to, v, bits)
+#define PATH_LOAD_INT(name)                                                                        \
+    LOAD_INT((global const int*)path_state + (long)path_##name * params.state_stride + at)
+#define PATH_PACK_REAL(name, v)                                                                    \
+    store_packed(path_state + (long)path_##name * params.state_stride + to, v, bits)
 #define PATH_PACK_INT(name, v)                                                                     \
-    store_packed_int((global int*)path_state + (long)path_##name * params.state_stride + to, v, bits)
+    store_packed_int((global int*)path_state + (long)path_##name * params.state_stride + to, v,    \
+                     bits)
 #define SHADOW_PACK_REAL(name, v)                                                                  \
     store_packed(shadow_state + (long)shadow_##name * params.state_stride + to, v, bits)
 #define SHADOW_PACK_INT(name, v)                                                                   \
-    store_packed_int((global int*)shadow_state + (long)shadow_##name * params.state_stride + to, v, bits)
+    store_packed_int((global int*)shadow_state + (long)shadow_##name * params.state_stride + to,   \
+                     v, bits)
 
 // One entry, for the stages that walk the tree a ray at a time.
 #define PATH_AT(name) path_state[(long)path_##name * params.state_stride + at]
 #define PATH_INT_AT(name) ((global int*)path_state)[(long)path_##name * params.state_stride + at]
 #define SHADOW_AT(name) shadow_state[(long)shadow_##name * params.state_stride + at]
-#define SHADOW_INT_AT(name) ((global int*)shadow_state)[(long)shadow_##name * params.state_stride + at]
+#define SHADOW_INT_AT(name)                                                                        \
+    ((global int*)shadow_state)[(long)shadow_##name * params.state_stride + at]
 
-#define RESULT(channel) (results + (long)(channel) * params.path_capacity)
+#define RESULT(channel) (results + (long)(channel)*params.path_capacity)
 
 /// Adds v to three neighbouring result channels of the lanes' slots.
-FN void add_result3(global float* results, long capacity, int channel, Int slot, vec3 v, uint bits) {
+FN void add_result3(global float* results, long capacity, int channel, Int slot, vec3 v,
+                    uint bits) {
     scatter_add(results + channel * capacity, slot, v.x, bits);
     scatter_add(results + (channel + 1) * capacity, slot, v.y, bits);
     scatter_add(results + (channel + 2) * capacity, slot, v.z, bits);

@@ -1,7 +1,8 @@
-// One ray through the wide BVH: LANES children or primitives at a time; closest hit and any hit are one body.
+// One ray through the wide BVH: LANES children or primitives at a time; closest hit and any hit are
+// one body.
 //
-// Boxes are widened and triangles are watertight, so no hit is lost; of two hits at the same distance the lower primitive number
-// wins, so the answer does not depend on the order of the walk.
+// Boxes are widened and triangles are watertight, so no hit is lost; of two hits at the same
+// distance the lower primitive number wins, so the answer does not depend on the order of the walk.
 
 #define LANE_GROUPS (BVH_WIDTH / LANES)
 #define STACK_SIZE 512
@@ -18,7 +19,8 @@ typedef struct {
     float shear[3];
 } TraversalRay;
 
-/// 1/d, but finite for an axis the ray is parallel to: 0 * infinity would be no number on the planes of a box.
+/// 1/d, but finite for an axis the ray is parallel to: 0 * infinity would be no number on the
+/// planes of a box.
 FN float axis_inverse(float d) {
     float inverse = 1.f / d;
     return isinf(inverse) ? copysign(MAXFLOAT, d) : inverse;
@@ -48,7 +50,8 @@ FN TraversalRay traversal_ray(float ox, float oy, float oz, float dx, float dy, 
 
 #define LEAF_ROW(row) LOAD_REAL(leaf->rows[row] + group * LANES)
 
-FN Intersection leaf_triangles(global const BvhLeaf* leaf, int group, const TraversalRay* ray, float t_max) {
+FN Intersection leaf_triangles(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
+                               float t_max) {
     int x = ray->axis[0], y = ray->axis[1], z = ray->axis[2];
     Real ox = (Real)ray->origin[x], oy = (Real)ray->origin[y], oz = (Real)ray->origin[z];
     RayShear shear;
@@ -63,18 +66,24 @@ FN Intersection leaf_triangles(global const BvhLeaf* leaf, int group, const Trav
 
 FN vec3 splat_ray(const float* v) { return v3((Real)v[0], (Real)v[1], (Real)v[2]); }
 
-FN Intersection leaf_spheres(global const BvhLeaf* leaf, int group, const TraversalRay* ray, float t_max) {
+FN Intersection leaf_spheres(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
+                             float t_max) {
     vec3 centre = v3(LEAF_ROW(0), LEAF_ROW(1), LEAF_ROW(2));
-    return intersect_sphere(sub3(splat_ray(ray->origin), centre), splat_ray(ray->direction), LEAF_ROW(3), (Real)t_max);
+    return intersect_sphere(sub3(splat_ray(ray->origin), centre), splat_ray(ray->direction),
+                            LEAF_ROW(3), (Real)t_max);
 }
 
-FN Intersection leaf_disks(global const BvhLeaf* leaf, int group, const TraversalRay* ray, float t_max) {
+FN Intersection leaf_disks(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
+                           float t_max) {
     vec3 centre = v3(LEAF_ROW(0), LEAF_ROW(1), LEAF_ROW(2));
-    vec3 edge_u = v3(LEAF_ROW(3), LEAF_ROW(4), LEAF_ROW(5)), edge_v = v3(LEAF_ROW(6), LEAF_ROW(7), LEAF_ROW(8));
-    return intersect_disk(sub3(centre, splat_ray(ray->origin)), splat_ray(ray->direction), edge_u, edge_v, (Real)t_max);
+    vec3 edge_u = v3(LEAF_ROW(3), LEAF_ROW(4), LEAF_ROW(5)),
+         edge_v = v3(LEAF_ROW(6), LEAF_ROW(7), LEAF_ROW(8));
+    return intersect_disk(sub3(centre, splat_ray(ray->origin)), splat_ray(ray->direction), edge_u,
+                          edge_v, (Real)t_max);
 }
 
-FN Intersection leaf_group(global const BvhLeaf* leaf, int kind, int group, const TraversalRay* ray, float t_max) {
+FN Intersection leaf_group(global const BvhLeaf* leaf, int kind, int group, const TraversalRay* ray,
+                           float t_max) {
     if (HAS(shape_sphere) && kind == geometry_sphere) return leaf_spheres(leaf, group, ray, t_max);
     if (HAS(shape_disk) && kind == geometry_disk) return leaf_disks(leaf, group, ray, t_max);
     return leaf_triangles(leaf, group, ray, t_max);
@@ -84,11 +93,15 @@ FN Intersection leaf_group(global const BvhLeaf* leaf, int kind, int group, cons
 #define LANE_OF(v, k) (v)
 #define LANE_DECLARE(name, v) const float name[1] = {v}
 #else
-#define LANE_DECLARE(name, v) RealLanes name##_lanes; name##_lanes.lanes = v; const float* name = name##_lanes.at
+#define LANE_DECLARE(name, v)                                                                      \
+    RealLanes name##_lanes;                                                                        \
+    name##_lanes.lanes = v;                                                                        \
+    const float* name = name##_lanes.at
 #endif
 
 /// Takes the hits of one leaf into `hit`; returns whether there was one.
-FN int leaf_intersect(global const BvhLeaf* leaf, int kind, const TraversalRay* ray, int excluded, int any_hit, RayHit* hit) {
+FN int leaf_intersect(global const BvhLeaf* leaf, int kind, const TraversalRay* ray, int excluded,
+                      int any_hit, RayHit* hit) {
     int found = 0;
     for (int group = 0; group < LANE_GROUPS; group++) {
         Intersection i = leaf_group(leaf, kind, group, ray, hit->t);
@@ -104,7 +117,8 @@ FN int leaf_intersect(global const BvhLeaf* leaf, int kind, const TraversalRay* 
         while (bits) {
             int k = lowest_bit(bits);
             bits &= bits - 1;
-            if (t[k] < hit->t || (t[k] == hit->t && (hit->primitive < 0 || number[k] < hit->primitive))) {
+            if (t[k] < hit->t ||
+                (t[k] == hit->t && (hit->primitive < 0 || number[k] < hit->primitive))) {
                 hit->t = t[k];
                 hit->b1 = b1[k];
                 hit->b2 = b2[k];
@@ -115,8 +129,10 @@ FN int leaf_intersect(global const BvhLeaf* leaf, int kind, const TraversalRay* 
     return found;
 }
 
-FN Mask node_overlap(global const BvhNode* node, int group, const TraversalRay* ray, float t_max, Real* entry) {
-#define BOX_ROW(row, a) ((LOAD_REAL(node->bounds[row] + group * LANES) - (Real)ray->origin[a]) * (Real)ray->inverse[a])
+FN Mask node_overlap(global const BvhNode* node, int group, const TraversalRay* ray, float t_max,
+                     Real* entry) {
+#define BOX_ROW(row, a)                                                                            \
+    ((LOAD_REAL(node->bounds[row] + group * LANES) - (Real)ray->origin[a]) * (Real)ray->inverse[a])
     Real nx = BOX_ROW(ray->near_row[0], 0), fx = BOX_ROW(ray->far_row[0], 0);
     Real ny = BOX_ROW(ray->near_row[1], 1), fy = BOX_ROW(ray->far_row[1], 1);
     Real nz = BOX_ROW(ray->near_row[2], 2), fz = BOX_ROW(ray->far_row[2], 2);
@@ -124,10 +140,10 @@ FN Mask node_overlap(global const BvhNode* node, int group, const TraversalRay* 
     return box_overlap(nx, ny, nz, fx, fy, fz, (Real)t_max);
 }
 
-/// Walks the tree from `root` (a child code as in BvhNode); hits beyond t_max do not count. With any_hit the first hit found
-/// ends the walk and only `primitive` (0 or -1) is meaningful.
-FN RayHit traverse(global const BvhNode* nodes, global const BvhLeaf* leaves, int root, const TraversalRay* ray,
-                   float t_max, int excluded, int any_hit) {
+/// Walks the tree from `root` (a child code as in BvhNode); hits beyond t_max do not count. With
+/// any_hit the first hit found ends the walk and only `primitive` (0 or -1) is meaningful.
+FN RayHit traverse(global const BvhNode* nodes, global const BvhLeaf* leaves, int root,
+                   const TraversalRay* ray, float t_max, int excluded, int any_hit) {
     RayHit hit;
     hit.t = t_max, hit.b1 = 0.f, hit.b2 = 0.f, hit.primitive = -1;
     int stack[STACK_SIZE];
@@ -163,7 +179,8 @@ FN RayHit traverse(global const BvhNode* nodes, global const BvhLeaf* leaves, in
             }
         } else {
             int code = ~current;
-            int found = leaf_intersect(leaves + (code >> 2), code & 3, ray, excluded, any_hit, &hit);
+            int found =
+                leaf_intersect(leaves + (code >> 2), code & 3, ray, excluded, any_hit, &hit);
             if (any_hit && found) {
                 hit.primitive = 0;
                 return hit;

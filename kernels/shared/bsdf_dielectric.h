@@ -1,4 +1,5 @@
-// Smooth dielectric interface: reflects with the probability of the Fresnel reflectance, refracts otherwise.
+// Smooth dielectric interface: reflects with the probability of the Fresnel reflectance, refracts
+// otherwise.
 
 FN BsdfEval bsdf_dielectric_eval(Material m, vec3 wo, vec3 wi) { return bsdf_eval_none(); }
 

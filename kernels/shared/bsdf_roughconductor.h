@@ -2,7 +2,8 @@
 
 FN BsdfEval bsdf_roughconductor_eval(Material m, vec3 wo, vec3 wi) {
     Mask reflects = (wo.z > R(0.)) & (wi.z > R(0.));
-    // Placeholders keep lanes that do not reflect away from divisions by zero; their results are not used.
+    // Placeholders keep lanes that do not reflect away from divisions by zero; their results are
+    // not used.
     vec3 up = v3(R(0.), R(0.), R(1.));
     vec3 o = sel3(reflects, wo, up), i = sel3(reflects, wi, up);
     vec3 h = normalize3(add3(o, i));

@@ -1,7 +1,8 @@
-// Rough dielectric interface: microfacet reflection and refraction (Walter et al. 2007, "Microfacet models for refraction
-// through rough surfaces").
+// Rough dielectric interface: microfacet reflection and refraction (Walter et al. 2007, "Microfacet
+// models for refraction through rough surfaces").
 
-/// Jacobian dh/dwi of the refraction half vector, for cosines to h on this side (oh > 0) and beyond (ih < 0).
+/// Jacobian dh/dwi of the refraction half vector, for cosines to h on this side (oh > 0) and beyond
+/// (ih < 0).
 FN Real refraction_jacobian(Real oh, Real ih, Real eta) {
     return square(eta) * absR(ih) / square(oh + eta * ih);
 }
@@ -12,13 +13,16 @@ FN BsdfEval bsdf_roughdielectric_eval(Material m, vec3 wo, vec3 wi) {
     Real side = copysignR(R(1.), wo.z);
     Mask usable = (wo.z != R(0.)) & (wi.z != R(0.));
     vec3 up = v3(R(0.), R(0.), R(1.));
-    vec3 o = sel3(usable, scale3(wo, side), up), i = sel3(usable, scale3(wi, side), up); // o is on the upper side
+    vec3 o = sel3(usable, scale3(wo, side), up),
+         i = sel3(usable, scale3(wi, side), up); // o is on the upper side
     Mask reflect = i.z > R(0.);
     vec3 half_vector = add3(o, scale3(i, sel(reflect, R(1.), face.eta)));
-    // eta = 1 transmits straight on only: the half vector vanishes and no rough transmission is left to evaluate.
+    // eta = 1 transmits straight on only: the half vector vanishes and no rough transmission is
+    // left to evaluate.
     Real length_squared = dot3(half_vector, half_vector);
     usable = usable & (length_squared > R(0.));
-    vec3 h = sel3(usable, scale3(half_vector, R(1.) / sqrtR(sel(usable, length_squared, R(1.)))), up);
+    vec3 h =
+        sel3(usable, scale3(half_vector, R(1.) / sqrtR(sel(usable, length_squared, R(1.)))), up);
     h = scale3(h, copysignR(R(1.), h.z));
     Real oh = dot3(o, h), ih = dot3(i, h);
     usable = usable & (oh > R(0.)) & (sel(reflect, ih, -ih) > R(0.)) & (h.z > R(0.));
@@ -33,7 +37,8 @@ FN BsdfEval bsdf_roughdielectric_eval(Material m, vec3 wo, vec3 wi) {
     Real scale = sel(reflect, R(1.), square(face.inv_eta));
     Real value = share * dg * oh * jacobian * scale;
     BsdfEval e;
-    e.f = sel3(usable, scale3(sel3(reflect, material_reflectance(m), material_transmittance(m)), value),
+    e.f = sel3(usable,
+               scale3(sel3(reflect, material_reflectance(m), material_transmittance(m)), value),
                splat3(R(0.)));
     e.pdf = sel(usable, share * pdf_h * jacobian, R(0.));
     return e;
@@ -59,8 +64,9 @@ FN BsdfSample bsdf_roughdielectric_sample(Material m, vec3 wo, vec2 u, Real u_lo
     Real jacobian = sel(reflect, R(.25) / oh, refraction_jacobian(oh, ih, face.eta));
     Real weight = n.weight * microfacet_g1(m, i_up) * sel(reflect, R(1.), square(face.inv_eta));
     s.wi = sel3(usable, scale3(wi, side), s.wi);
-    s.weight = sel3(usable, scale3(sel3(reflect, material_reflectance(m), material_transmittance(m)), weight),
-                    s.weight);
+    s.weight = sel3(
+        usable, scale3(sel3(reflect, material_reflectance(m), material_transmittance(m)), weight),
+        s.weight);
     s.pdf = sel(usable, n.pdf * jacobian * sel(reflect, f.reflectance, f.transmittance), R(0.));
     s.eta = sel(usable & !reflect, face.eta, R(1.));
     return s;

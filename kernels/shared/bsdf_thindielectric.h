@@ -1,4 +1,5 @@
-// A dielectric slab too thin to displace the ray, the reflections inside it summed: R' = 2R/(1+R), T' = T/(1+R).
+// A dielectric slab too thin to displace the ray, the reflections inside it summed: R' = 2R/(1+R),
+// T' = T/(1+R).
 
 FN BsdfEval bsdf_thindielectric_eval(Material m, vec3 wo, vec3 wi) { return bsdf_eval_none(); }
 

@@ -1,9 +1,10 @@
 // Conventions of all BSDFs, and what they return.
 //
-// Local space, shading normal = +z. `wo` points toward the viewer, `wi` is the sampled direction, toward the light.
-// eval returns f * |cos(wi)|; pdf is in solid angle. A surface that looks different from below is turned over before it gets
-// here, so one-sided materials need only answer for wo.z > 0; they return 0 and do not scatter for wo.z <= 0.
-// Radiance that crosses into a medium of relative index eta is scaled by 1 / eta^2 (Veach 1997, section 5.2).
+// Local space, shading normal = +z. `wo` points toward the viewer, `wi` is the sampled direction,
+// toward the light. eval returns f * |cos(wi)|; pdf is in solid angle. A surface that looks
+// different from below is turned over before it gets here, so one-sided materials need only answer
+// for wo.z > 0; they return 0 and do not scatter for wo.z <= 0. Radiance that crosses into a medium
+// of relative index eta is scaled by 1 / eta^2 (Veach 1997, section 5.2).
 
 typedef struct {
     vec3 f;   // f * |cos(wi)|, 1/sr; 0 for delta lobes
@@ -14,7 +15,7 @@ typedef struct {
     vec3 wi;
     vec3 weight; // f * |cos(wi)| / pdf; 0 where nothing is scattered
     Real pdf;    // 1/sr; infinite for a delta lobe
-    Real eta;    // index beyond / index here for a path that crosses the surface, 1 for one that stays
+    Real eta; // index beyond / index here for a path that crosses the surface, 1 for one that stays
 } BsdfSample;
 
 FN BsdfEval bsdf_eval_none(void) {
@@ -38,7 +39,8 @@ FN vec3 material_transmittance(Material m) { return v3(m.tr, m.tg, m.tb); }
 FN vec3 material_eta(Material m) { return v3(m.er, m.eg, m.eb); }
 FN vec3 material_k(Material m) { return v3(m.kr, m.kg, m.kb); }
 
-/// The interface of a dielectric seen from outside (`outside`) or from within; types.h says where its numbers live.
+/// The interface of a dielectric seen from outside (`outside`) or from within; types.h says where
+/// its numbers live.
 FN Interface material_interface(Material m, Mask outside) {
     Interface i;
     i.eta = sel(outside, m.er, m.eg);

@@ -13,8 +13,10 @@ FN CameraRay camera_ray(Camera c, vec2 film, vec2 lens) {
     vec3 d = add3(v3(c.dx, c.dy, c.dz),
                   add3(scale3(v3(c.ux, c.uy, c.uz), film.x), scale3(v3(c.vx, c.vy, c.vz), film.y)));
     if (HAS(thin_lens)) {
-        vec3 on_lens = add3(scale3(v3(c.lx, c.ly, c.lz), lens.x), scale3(v3(c.mx, c.my, c.mz), lens.y));
-        // The lens lies across the optical axis, so the bent direction keeps its unit length along it.
+        vec3 on_lens =
+            add3(scale3(v3(c.lx, c.ly, c.lz), lens.x), scale3(v3(c.mx, c.my, c.mz), lens.y));
+        // The lens lies across the optical axis, so the bent direction keeps its unit length along
+        // it.
         d = sub3(d, scale3(on_lens, R(1.) / c.focus_distance));
         origin = add3(origin, on_lens);
     }

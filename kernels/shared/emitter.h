@@ -1,4 +1,5 @@
-// Dispatch to the kind of each lane's light, made from the list of emitters; and the weights that combine two strategies.
+// Dispatch to the kind of each lane's light, made from the list of emitters; and the weights that
+// combine two strategies.
 
 FN EmitterSample sel_emitter(Mask m, EmitterSample a, EmitterSample b) {
     EmitterSample s;
@@ -46,8 +47,8 @@ FN EmitterHit emitter_hit(Light l, vec3 p, vec3 wi, vec3 q) {
     return hit;
 }
 
-/// Power heuristic with exponent 2 (Veach 1997, section 9.2) for a sample drawn with density `own`. Never squares a density;
-/// an infinite density (delta lobe or light) takes all the weight.
+/// Power heuristic with exponent 2 (Veach 1997, section 9.2) for a sample drawn with density `own`.
+/// Never squares a density; an infinite density (delta lobe or light) takes all the weight.
 FN Real power_heuristic(Real own, Real other) {
     Mask all = !finiteR(own) | (other == R(0.));
     Real ratio = other / sel(all, R(1.), own);

@@ -1,4 +1,5 @@
-// A disk that emits from one side: centre a, edges b and c, `extra` +-1 the side of cross(b, c); chosen uniformly by area.
+// A disk that emits from one side: centre a, edges b and c, `extra` +-1 the side of cross(b, c);
+// chosen uniformly by area.
 
 FN vec3 emitter_area_disk_normal(Light l) {
     return scale3(normalize3(cross3(light_b(l), light_c(l))), l.extra);
@@ -7,7 +8,8 @@ FN vec3 emitter_area_disk_normal(Light l) {
 FN EmitterSample emitter_area_disk_sample(Light l, vec3 p, vec2 u) {
     vec2 d = disk_uniform(u);
     vec3 q = add3(light_a(l), add3(scale3(light_b(l), d.x), scale3(light_c(l), d.y)));
-    vec3 error = add3(abs3(light_a(l)), add3(scale3(abs3(light_b(l)), absR(d.x)), scale3(abs3(light_c(l)), absR(d.y))));
+    vec3 error = add3(abs3(light_a(l)), add3(scale3(abs3(light_b(l)), absR(d.x)),
+                                             scale3(abs3(light_c(l)), absR(d.y))));
     return emitter_area_finish(l, p, q, scale3(error, GAMMA(7.f)), emitter_area_disk_normal(l));
 }
 

@@ -1,13 +1,14 @@
 // A sphere that emits outward (`extra` +1) or inward (-1): centre a, radius bx.
 //
-// One that emits outward is seen from outside: directions are chosen uniformly in the cone it fills. One that emits inward is
-// seen from inside: points are chosen uniformly by area. The choice goes by the side that emits, not by the distance of p: a
-// point on its own wall rounds to either side, and both strategies must take the same branch.
+// One that emits outward is seen from outside: directions are chosen uniformly in the cone it
+// fills. One that emits inward is seen from inside: points are chosen uniformly by area. The choice
+// goes by the side that emits, not by the distance of p: a point on its own wall rounds to either
+// side, and both strategies must take the same branch.
 
 typedef struct {
     Mask outside, visible;
-    Real distance_squared;    // from p to the centre
-    Real sine_squared;        // of the cone's half angle
+    Real distance_squared; // from p to the centre
+    Real sine_squared;     // of the cone's half angle
     Real one_minus_cosine;
 } SphereCone;
 
@@ -33,7 +34,8 @@ FN EmitterSample emitter_area_sphere_sample(Light l, vec3 p, vec2 u) {
     vec3 centre = light_a(l);
     // Inside: a point uniform by area.
     vec3 outward = sphere_uniform(u);
-    // Outside: a direction in the cone; the point it meets first lies at the angle alpha about the centre.
+    // Outside: a direction in the cone; the point it meets first lies at the angle alpha about the
+    // centre.
     Real one_minus_c = u.x * cone.one_minus_cosine;
     Real c = R(1.) - one_minus_c;
     Real s_squared = one_minus_c * (R(1.) + c);
@@ -46,7 +48,8 @@ FN EmitterSample emitter_area_sphere_sample(Light l, vec3 p, vec2 u) {
     Mask in_cone = cone.outside & cone.visible;
     axis = scale3(axis, R(1.) / sqrtR(sel(in_cone, cone.distance_squared, R(1.))));
     axis = sel3(in_cone, axis, v3(R(0.), R(0.), R(1.)));
-    vec3 toward = to_world(frame_from_normal(axis), v3(sin_alpha * phi.cosine, sin_alpha * phi.sine, cos_alpha));
+    vec3 toward = to_world(frame_from_normal(axis),
+                           v3(sin_alpha * phi.cosine, sin_alpha * phi.sine, cos_alpha));
     outward = sel3(cone.outside, toward, outward);
     vec3 q = add3(centre, scale3(outward, l.bx));
     vec3 error = scale3(add3(abs3(centre), scale3(abs3(outward), l.bx)), GAMMA(7.f));
@@ -61,7 +64,8 @@ FN EmitterSample emitter_area_sphere_sample(Light l, vec3 p, vec2 u) {
 FN Real emitter_area_sphere_pdf(Light l, vec3 p, vec3 wi, vec3 q) {
     SphereCone cone = emitter_area_sphere_cone(l, p);
     vec3 outward = scale3(sub3(q, light_a(l)), R(1.) / l.bx);
-    return sel(cone.outside, emitter_area_sphere_cone_pdf(l, cone), emitter_area_pdf(l, p, q, outward));
+    return sel(cone.outside, emitter_area_sphere_cone_pdf(l, cone),
+               emitter_area_pdf(l, p, q, outward));
 }
 
 FN Mask emitter_area_sphere_faces(Light l, vec3 wi, vec3 q) {

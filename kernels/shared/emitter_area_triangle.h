@@ -8,7 +8,8 @@ FN EmitterSample emitter_area_triangle_sample(Light l, vec3 p, vec2 u) {
     vec2 b = triangle_uniform(u);
     vec3 a0 = light_a(l), a1 = light_b(l), a2 = light_c(l);
     vec3 error = scale3(interpolate3(abs3(a0), abs3(a1), abs3(a2), b.x, b.y), GAMMA(7.f));
-    return emitter_area_finish(l, p, interpolate3(a0, a1, a2, b.x, b.y), error, emitter_area_triangle_normal(l));
+    return emitter_area_finish(l, p, interpolate3(a0, a1, a2, b.x, b.y), error,
+                               emitter_area_triangle_normal(l));
 }
 
 FN Real emitter_area_triangle_pdf(Light l, vec3 p, vec3 wi, vec3 q) {

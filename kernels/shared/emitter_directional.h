@@ -1,4 +1,5 @@
-// Parallel light from infinity: b the way it travels (unit), rgb the irradiance on a surface facing it.
+// Parallel light from infinity: b the way it travels (unit), rgb the irradiance on a surface facing
+// it.
 
 FN EmitterSample emitter_directional_sample(Light l, vec3 p, vec2 u) {
     EmitterSample s = emitter_sample_none();

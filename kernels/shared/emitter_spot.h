@@ -1,5 +1,6 @@
-// A spot light: a point at a, axis b (unit); full intensity within the beam, linear in the angle down to 0 at the cutoff.
-// cx: cosine of the cutoff, cy: the cutoff angle, cz: 1 / (cutoff - beam), extra: cosine of the beam width.
+// A spot light: a point at a, axis b (unit); full intensity within the beam, linear in the angle
+// down to 0 at the cutoff. cx: cosine of the cutoff, cy: the cutoff angle, cz: 1 / (cutoff - beam),
+// extra: cosine of the beam width.
 
 FN Real emitter_spot_falloff(Light l, Real cosine) {
     Real inside = minR(cosine, R(1.));

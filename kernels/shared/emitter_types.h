@@ -1,17 +1,19 @@
 // What sampling an emitter returns, and the conventions of all emitters.
 //
-// emitter_<kind>_sample(light, p, u): light arriving at point p. Densities are in solid angle at p and include the
-// probability (light.pmf) with which this row of the light table was picked.
-// emitter_<kind>_pdf(light, p, wi, q): the density with which sample would have chosen wi, for the point q it hits.
+// emitter_<kind>_sample(light, p, u): light arriving at point p. Densities are in solid angle at p
+// and include the probability (light.pmf) with which this row of the light table was picked.
+// emitter_<kind>_pdf(light, p, wi, q): the density with which sample would have chosen wi, for the
+// point q it hits.
 
 typedef struct {
-    vec3 wi;      // unit direction to the emitter
-    vec3 weight;  // radiance / pdf; for delta emitters incident irradiance on a facing surface / pmf; 0: nothing arrives
-    Real pdf;     // 1/sr; infinite for delta emitters
-    vec3 q;       // the point on the emitter
-    vec3 q_error; // rounding error bound of q
+    vec3 wi;       // unit direction to the emitter
+    vec3 weight;   // radiance / pdf; for delta emitters incident irradiance on a facing surface /
+                   // pmf; 0: nothing arrives
+    Real pdf;      // 1/sr; infinite for delta emitters
+    vec3 q;        // the point on the emitter
+    vec3 q_error;  // rounding error bound of q
     vec3 q_normal; // unit normal there; any non-zero vector for a point without surface
-    Mask distant; // there is no such point: the light comes from infinity
+    Mask distant;  // there is no such point: the light comes from infinity
 } EmitterSample;
 
 FN EmitterSample emitter_sample_none(void) {
@@ -31,7 +33,8 @@ FN vec3 light_b(Light l) { return v3(l.bx, l.by, l.bz); }
 FN vec3 light_c(Light l) { return v3(l.cx, l.cy, l.cz); }
 FN vec3 light_radiance(Light l) { return v3(l.r, l.g, l.b); }
 
-/// Finishes a sample chosen uniformly by area: l.density = pmf / area, q and its normal given. One-sided.
+/// Finishes a sample chosen uniformly by area: l.density = pmf / area, q and its normal given.
+/// One-sided.
 FN EmitterSample emitter_area_finish(Light l, vec3 p, vec3 q, vec3 q_error, vec3 q_normal) {
     vec3 to = sub3(q, p);
     Real distance_squared = dot3(to, to);
@@ -57,6 +60,8 @@ FN Real emitter_area_pdf(Light l, vec3 p, vec3 q, vec3 q_normal) {
     Real distance_squared = dot3(to, to);
     Real cosine_distance = absR(dot3(to, q_normal)); // cosine * distance
     Mask seen = cosine_distance > R(0.);
-    return sel(seen, l.density * distance_squared * sqrtR(distance_squared) / sel(seen, cosine_distance, R(1.)),
+    return sel(seen,
+               l.density * distance_squared * sqrtR(distance_squared) /
+                   sel(seen, cosine_distance, R(1.)),
                LANE_INFINITY);
 }

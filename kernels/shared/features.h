@@ -1,4 +1,5 @@
-// The list of what a scene can need. A kernel asks HAS(x) in an ordinary `if`; what a scene does not need is not compiled.
+// The list of what a scene can need. A kernel asks HAS(x) in an ordinary `if`; what a scene does
+// not need is not compiled.
 //
 // The key holds kinds, never values: moving a vertex or a light gives the same programs.
 #ifndef PARHELION_FEATURES_H

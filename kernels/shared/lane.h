@@ -1,20 +1,24 @@
-// The lane layer: the only file that knows which language compiles the shared maths and how many values a Real holds.
+// The lane layer: the only file that knows which language compiles the shared maths and how many
+// values a Real holds.
 //
-// OpenCL C: LANES is 16, 8 or 1; Real, Int, Uint and Mask are vectors of that many values (or scalars).
-// C++: one lane; PARHELION_REAL is float or double, and the file that includes this supplies <cmath> and <cstdint>.
+// OpenCL C: LANES is 16, 8 or 1; Real, Int, Uint and Mask are vectors of that many values (or
+// scalars). C++: one lane; PARHELION_REAL is float or double, and the file that includes this
+// supplies <cmath> and <cstdint>.
 //
-// Rules for everything written above it: values in, values out; no pointers; no `if` on a Mask except
-// `if (someLane(m))` around work that is merged by sel(); masks combine with & and | and are negated with !;
-// R(1.25) makes a constant of the Real's precision.
+// Rules for everything written above it: values in, values out; no pointers; no `if` on a Mask
+// except `if (someLane(m))` around work that is merged by sel(); masks combine with & and | and are
+// negated with !; R(1.25) makes a constant of the Real's precision.
 
 #ifdef __OPENCL_C_VERSION__
-// ------------------------------------------------------------------------------------------------- OpenCL C
+// -------------------------------------------------------------------------------------------------
+// OpenCL C
 #pragma OPENCL FP_CONTRACT OFF
 #define FN static inline __attribute__((always_inline))
 #define R_(x) ((Real)(x##f))
 #define R(x) R_(x)
 
-// The x86 intrinsics have a portable twin each; PORTABLE switches them off so that the twins can be tested.
+// The x86 intrinsics have a portable twin each; PORTABLE switches them off so that the twins can be
+// tested.
 #if defined(__AVX512F__) && defined(__AVX512VL__) && !defined(PORTABLE)
 #define LANE_AVX512
 #endif
@@ -56,7 +60,8 @@ FN uint maskBits(Mask m) { return (ushort)__builtin_ia32_cvtd2mask512(m); }
 FN int someLane(Mask m) { return maskBits(m) != 0; }
 #elif LANES == 16
 FN uint maskBits(Mask m) {
-    int16 bit = m & (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
+    int16 bit =
+        m & (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
     int8 a = bit.lo | bit.hi;
     int4 b = a.lo | a.hi;
     int2 c = b.lo | b.hi;
@@ -91,7 +96,8 @@ FN Real copysignR(Real a, Real b) {
 FN Real scale_by_power_of_two(Real x, Int n) { return asReal(asInt(x) + n * 8388608); }
 
 #else
-// ------------------------------------------------------------------------------------------------------ C++
+// ------------------------------------------------------------------------------------------------------
+// C++
 #define FN inline
 #define LANES 1
 typedef PARHELION_REAL Real;
@@ -116,10 +122,12 @@ FN Real scale_by_power_of_two(Real x, Int n) { return std::ldexp(x, n); }
 #define LANE_INFINITY ((Real)INFINITY)
 #endif
 
-// ----------------------------------------------------------------------------------------------- everywhere
+// -----------------------------------------------------------------------------------------------
+// everywhere
 #define sel(mask, a, b) ((mask) ? (a) : (b))
 
-// Comparisons instead of fmin/fmax: those have NaN rules of their own and cost several instructions.
+// Comparisons instead of fmin/fmax: those have NaN rules of their own and cost several
+// instructions.
 FN Real minR(Real a, Real b) { return sel(a < b, a, b); }
 FN Real maxR(Real a, Real b) { return sel(a > b, a, b); }
 

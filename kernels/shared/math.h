@@ -6,11 +6,26 @@
 #define INV_TWO_PI 0.15915494309189533577
 #define INV_FOUR_PI 0.07957747154594766788
 
-typedef struct { Real x, y; } vec2;
-typedef struct { Real x, y, z; } vec3;
+typedef struct {
+    Real x, y;
+} vec2;
+typedef struct {
+    Real x, y, z;
+} vec3;
 
-FN vec2 v2(Real x, Real y) { vec2 r; r.x = x; r.y = y; return r; }
-FN vec3 v3(Real x, Real y, Real z) { vec3 r; r.x = x; r.y = y; r.z = z; return r; }
+FN vec2 v2(Real x, Real y) {
+    vec2 r;
+    r.x = x;
+    r.y = y;
+    return r;
+}
+FN vec3 v3(Real x, Real y, Real z) {
+    vec3 r;
+    r.x = x;
+    r.y = y;
+    r.z = z;
+    return r;
+}
 FN vec3 splat3(Real s) { return v3(s, s, s); }
 FN vec3 add3(vec3 a, vec3 b) { return v3(a.x + b.x, a.y + b.y, a.z + b.z); }
 FN vec3 sub3(vec3 a, vec3 b) { return v3(a.x - b.x, a.y - b.y, a.z - b.z); }
@@ -35,14 +50,17 @@ FN Real difference_of_products(Real a, Real b, Real c, Real d) {
 }
 
 FN vec3 cross3(vec3 a, vec3 b) {
-    return v3(difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+    return v3(difference_of_products(a.y, b.z, a.z, b.y),
+              difference_of_products(a.z, b.x, a.x, b.z),
               difference_of_products(a.x, b.y, a.y, b.x));
 }
 
 /// A square root of what cannot be negative but for rounding.
 FN Real sqrt_nonnegative(Real x) { return sqrtR(maxR(x, R(0.))); }
 
-typedef struct { Real sine, cosine; } SinCos;
+typedef struct {
+    Real sine, cosine;
+} SinCos;
 
 #ifdef PARHELION_REAL_IS_DOUBLE
 FN SinCos sincos_turns(Real u) {
@@ -54,14 +72,17 @@ FN SinCos sincos_turns(Real u) {
 FN Real exp_negative(Real x) { return std::exp(x); }
 FN Real atan2R(Real y, Real x) { return std::atan2(y, x); }
 #else
-/// sin and cos of 2 pi u, u in [0, 1]; absolute error below 1.2e-7. Minimax polynomials on [-pi/4, pi/4] (Cephes).
+/// sin and cos of 2 pi u, u in [0, 1]; absolute error below 1.2e-7. Minimax polynomials on [-pi/4,
+/// pi/4] (Cephes).
 FN SinCos sincos_turns(Real u) {
     Int quadrant = toInt(u * 4.f + .5f);
     Real x = (u * 4.f - toReal(quadrant)) * R(1.57079632679489662);
     Real z = x * x;
     Real s = x + x * z * (R(-1.6666654611e-1) + z * (R(8.3321608736e-3) + z * R(-1.9515295891e-4)));
     Real c = R(1.) - z * .5f +
-             z * z * (R(4.166664568298827e-2) + z * (R(-1.388731625493765e-3) + z * R(2.443315711809948e-5)));
+             z * z *
+                 (R(4.166664568298827e-2) +
+                  z * (R(-1.388731625493765e-3) + z * R(2.443315711809948e-5)));
     Mask odd = (quadrant & 1) != 0;
     Real sine = sel(odd, c, s), cosine = sel(odd, s, c);
     SinCos r;
@@ -86,7 +107,8 @@ FN Real exp_negative(Real x) {
     return sel(x < R(-87.3), R(0.), scale_by_power_of_two(e, n));
 }
 
-/// atan2, absolute error below 3e-7; atan2(0, 0) = 0. Minimax polynomial on [0, tan(pi/8)] (Cephes).
+/// atan2, absolute error below 3e-7; atan2(0, 0) = 0. Minimax polynomial on [0, tan(pi/8)]
+/// (Cephes).
 FN Real atan2R(Real y, Real x) {
     Real ax = absR(x), ay = absR(y);
     Real big = maxR(ax, ay), small = minR(ax, ay);

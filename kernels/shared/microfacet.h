@@ -1,14 +1,17 @@
-// Microfacet distributions, GGX and Beckmann, anisotropic: density, shadowing-masking, and sampling of visible normals.
+// Microfacet distributions, GGX and Beckmann, anisotropic: density, shadowing-masking, and sampling
+// of visible normals.
 //
-// Directions are local (normal +z), on the upper side. Shadowing-masking is the separable Smith form G1(wi) G1(wo), as in
-// Mitsuba 3, so that images agree.
+// Directions are local (normal +z), on the upper side. Shadowing-masking is the separable Smith
+// form G1(wi) G1(wo), as in Mitsuba 3, so that images agree.
 
-/// Slope squared of direction w in units of the roughness: (x^2 ax^2 + y^2 ay^2) / z^2. Infinite at the horizon.
+/// Slope squared of direction w in units of the roughness: (x^2 ax^2 + y^2 ay^2) / z^2. Infinite at
+/// the horizon.
 FN Real roughness_slope_squared(vec3 w, Real alpha_u, Real alpha_v) {
     return (square(alpha_u * w.x) + square(alpha_v * w.y)) / square(w.z);
 }
 
-/// GGX density of normals h (Walter et al. 2007; Heitz 2014), 1/sr. This form keeps its digits at small alpha.
+/// GGX density of normals h (Walter et al. 2007; Heitz 2014), 1/sr. This form keeps its digits at
+/// small alpha.
 FN Real ggx_d(vec3 h, Real alpha_u, Real alpha_v) {
     Real x = h.x / alpha_u, y = h.y / alpha_v;
     return R(INV_PI) / (alpha_u * alpha_v * square(x * x + y * y + h.z * h.z));
@@ -27,7 +30,8 @@ FN Real beckmann_d(vec3 h, Real alpha_u, Real alpha_v) {
     return e * R(INV_PI) / (alpha_u * alpha_v * z_squared * z_squared);
 }
 
-/// Smith masking of Beckmann, the rational approximation of Walter et al. 2007 (0.35 % from the exact form).
+/// Smith masking of Beckmann, the rational approximation of Walter et al. 2007 (0.35 % from the
+/// exact form).
 FN Real beckmann_g1(vec3 w, Real alpha_u, Real alpha_v) {
     Real slope = sqrtR(roughness_slope_squared(w, alpha_u, alpha_v));
     Real a = R(1.) / sel(slope > R(0.), slope, R(1.));
@@ -48,7 +52,8 @@ FN vec3 ggx_sample_visible(vec3 wo, Real alpha_u, Real alpha_v, vec2 u) {
                          (R(1.) - u.y) * (R(1.) + stretched.z)));
 }
 
-/// Asked only where HAS(beckmann). (A mask of lanes must not be combined with a plain int: 1 is no mask.)
+/// Asked only where HAS(beckmann). (A mask of lanes must not be combined with a plain int: 1 is no
+/// mask.)
 FN Mask is_beckmann(Material m) { return m.distribution != 0; }
 
 FN Real microfacet_d(Material m, vec3 h) {
@@ -74,12 +79,13 @@ FN Real microfacet_g1(Material m, vec3 w) {
 
 typedef struct {
     vec3 h;
-    Real pdf;       // of h, 1/sr
-    Real weight;    // G1(wo) D(h) (wo.h) / (wo.z pdf(h)): 1 for GGX
+    Real pdf;    // of h, 1/sr
+    Real weight; // G1(wo) D(h) (wo.h) / (wo.z pdf(h)): 1 for GGX
 } NormalSample;
 
-/// Both distributions are sampled by the visible normals of GGX: Beckmann's tails are lighter, so that its weight
-/// D_beckmann G1_beckmann / (D_ggx G1_ggx) is bounded, and no inverse error function is needed.
+/// Both distributions are sampled by the visible normals of GGX: Beckmann's tails are lighter, so
+/// that its weight D_beckmann G1_beckmann / (D_ggx G1_ggx) is bounded, and no inverse error
+/// function is needed.
 FN NormalSample microfacet_sample(Material m, vec3 wo, vec2 u) {
     NormalSample s;
     s.h = ggx_sample_visible(wo, m.alpha_u, m.alpha_v, u);
@@ -88,7 +94,8 @@ FN NormalSample microfacet_sample(Material m, vec3 wo, vec2 u) {
     s.weight = R(1.);
     if (HAS(beckmann)) {
         if (someLane(is_beckmann(m))) {
-            Real ratio = beckmann_g1(wo, m.alpha_u, m.alpha_v) * beckmann_d(s.h, m.alpha_u, m.alpha_v) /
+            Real ratio = beckmann_g1(wo, m.alpha_u, m.alpha_v) *
+                         beckmann_d(s.h, m.alpha_u, m.alpha_v) /
                          (ggx_g1(wo, m.alpha_u, m.alpha_v) * ggx_d(s.h, m.alpha_u, m.alpha_v));
             s.weight = sel(is_beckmann(m), ratio, R(1.));
         }
@@ -98,5 +105,6 @@ FN NormalSample microfacet_sample(Material m, vec3 wo, vec2 u) {
 
 /// Density with which microfacet_sample returns h.
 FN Real microfacet_pdf(Material m, vec3 wo, vec3 h) {
-    return ggx_g1(wo, m.alpha_u, m.alpha_v) * ggx_d(h, m.alpha_u, m.alpha_v) * absR(dot3(wo, h)) / wo.z;
+    return ggx_g1(wo, m.alpha_u, m.alpha_v) * ggx_d(h, m.alpha_u, m.alpha_v) * absR(dot3(wo, h)) /
+           wo.z;
 }

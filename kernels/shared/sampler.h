@@ -1,17 +1,21 @@
-// Random numbers as a function of (seed, pixel, sample, dimension) alone: the image cannot depend on how work is split.
+// Random numbers as a function of (seed, pixel, sample, dimension) alone: the image cannot depend
+// on how work is split.
 
 /// Which decision a set of four numbers feeds. Each bounce takes its own block of dimensions.
 enum SamplerDimension {
-    dimension_camera,          // film position, lens position
+    dimension_camera, // film position, lens position
     dimension_first_bounce,
-    dimension_emitter = 0,     // within a bounce: pick (2 integers), position on the emitter
-    dimension_bsdf,            // direction, lobe, roulette
+    dimension_emitter = 0, // within a bounce: pick (2 integers), position on the emitter
+    dimension_bsdf,        // direction, lobe, roulette
     dimensions_per_bounce
 };
 
-typedef struct { Uint x, y, z, w; } Random4;
+typedef struct {
+    Uint x, y, z, w;
+} Random4;
 
-/// PCG4D hash (Jarzynski and Olano 2020, "Hash functions for GPU rendering", JCGT 9(3)): four 32-bit numbers.
+/// PCG4D hash (Jarzynski and Olano 2020, "Hash functions for GPU rendering", JCGT 9(3)): four
+/// 32-bit numbers.
 FN Random4 random4(Uint pixel, Uint sample, Uint dimension, Uint seed) {
     Random4 v;
     v.x = pixel * 1664525u + 1013904223u;

@@ -1,8 +1,11 @@
 // The tangent frame in which BSDFs live: s, t and the shading normal n as x, y and z.
 
-typedef struct { vec3 s, t, n; } ShadingFrame;
+typedef struct {
+    vec3 s, t, n;
+} ShadingFrame;
 
-/// Orthonormal frame about a unit normal (Duff et al. 2017, "Building an orthonormal basis, revisited").
+/// Orthonormal frame about a unit normal (Duff et al. 2017, "Building an orthonormal basis,
+/// revisited").
 FN ShadingFrame frame_from_normal(vec3 n) {
     Real sign = copysignR(R(1.), n.z);
     Real a = R(-1.) / (sign + n.z);
@@ -14,7 +17,8 @@ FN ShadingFrame frame_from_normal(vec3 n) {
     return f;
 }
 
-/// Frame about n whose s follows the tangent (surface derivative along u), for anisotropic surfaces.
+/// Frame about n whose s follows the tangent (surface derivative along u), for anisotropic
+/// surfaces.
 FN ShadingFrame frame_from_tangent(vec3 n, vec3 tangent) {
     vec3 in_plane = sub3(tangent, scale3(n, dot3(n, tangent)));
     Real squared = dot3(in_plane, in_plane);

@@ -1,5 +1,6 @@
-// All shared maths, in floor order: each file uses only what stands above it. The same text compiles as OpenCL C (16, 8 or 1
-// lanes) and as C++ (float or double); other shared headers include nothing.
+// All shared maths, in floor order: each file uses only what stands above it. The same text
+// compiles as OpenCL C (16, 8 or 1 lanes) and as C++ (float or double); other shared headers
+// include nothing.
 
 #include "shared/lane.h"
 #include "shared/math.h"

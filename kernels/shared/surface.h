@@ -1,4 +1,5 @@
-// From a hit to the surface there: position with its error bound, geometric and shading normal, texture coordinates.
+// From a hit to the surface there: position with its error bound, geometric and shading normal,
+// texture coordinates.
 
 typedef struct {
     vec3 p;
@@ -41,11 +42,14 @@ FN SurfaceInteraction surface_triangle(Primitive p, Real b1, Real b2) {
 
 /// Shading normals interpolated by barycentrics from the normals of the corners.
 FN vec3 interpolated_normal(Vertex v, Real b1, Real b2) {
-    return interpolate3(v3(v.n0x, v.n0y, v.n0z), v3(v.n1x, v.n1y, v.n1z), v3(v.n2x, v.n2y, v.n2z), b1, b2);
+    return interpolate3(v3(v.n0x, v.n0y, v.n0z), v3(v.n1x, v.n1y, v.n1z), v3(v.n2x, v.n2y, v.n2z),
+                        b1, b2);
 }
 
-/// Replaces shading normal, texture coordinates and tangent of a triangle by those of its corners, where they have them.
-FN SurfaceInteraction surface_vertex_attributes(SurfaceInteraction s, Primitive p, Vertex v, Real b1, Real b2) {
+/// Replaces shading normal, texture coordinates and tangent of a triangle by those of its corners,
+/// where they have them.
+FN SurfaceInteraction surface_vertex_attributes(SurfaceInteraction s, Primitive p, Vertex v,
+                                                Real b1, Real b2) {
     if (HAS(vertex_normals)) {
         vec3 n = interpolated_normal(v, b1, b2);
         Real length_squared = dot3(n, n);
@@ -61,7 +65,8 @@ FN SurfaceInteraction surface_vertex_attributes(SurfaceInteraction s, Primitive 
         if (HAS(anisotropy)) {
             Real du1 = v.u1 - v.u0, dv1 = v.v1 - v.v0, du2 = v.u2 - v.u0, dv2 = v.v2 - v.v0;
             Real determinant = difference_of_products(du1, dv2, dv1, du2);
-            vec3 e1 = sub3(primitive_b(p), primitive_a(p)), e2 = sub3(primitive_c(p), primitive_a(p));
+            vec3 e1 = sub3(primitive_b(p), primitive_a(p)),
+                 e2 = sub3(primitive_c(p), primitive_a(p));
             vec3 along_u = sub3(scale3(e1, dv2), scale3(e2, dv1));
             Mask regular = usable & (determinant != R(0.));
             s.tangent = sel3(regular, scale3(along_u, copysignR(R(1.), determinant)), s.tangent);
@@ -74,7 +79,10 @@ FN SurfaceInteraction surface_sphere(Primitive p, vec3 on_ray) {
     vec3 centre = primitive_a(p), axis_x = primitive_b(p), axis_z = primitive_c(p);
     vec3 outward = normalize3(sub3(on_ray, centre));
     SurfaceInteraction s;
-    s.p = add3(centre, scale3(outward, p.radius)); // back on the sphere: the error no longer grows with the ray's length
+    s.p = add3(
+        centre,
+        scale3(outward,
+               p.radius)); // back on the sphere: the error no longer grows with the ray's length
     s.error = scale3(add3(abs3(centre), scale3(abs3(outward), p.radius)), GAMMA(7.f));
     s.ng = scale3(outward, primitive_side(p));
     s.ns = s.ng;
@@ -84,7 +92,8 @@ FN SurfaceInteraction surface_sphere(Primitive p, vec3 on_ray) {
     vec3 in_axes = v3(dot3(outward, axis_x), dot3(outward, axis_y), dot3(outward, axis_z));
     if (HAS(aovs)) {
         Real phi = atan2R(in_axes.y, in_axes.x) * R(INV_TWO_PI);
-        s.uv = v2(sel(phi < R(0.), phi + 1.f, phi), acosR(maxR(R(-1.), minR(R(1.), in_axes.z))) * R(INV_PI));
+        s.uv = v2(sel(phi < R(0.), phi + 1.f, phi),
+                  acosR(maxR(R(-1.), minR(R(1.), in_axes.z))) * R(INV_PI));
     }
     if (HAS(anisotropy)) s.tangent = sub3(scale3(axis_y, in_axes.x), scale3(axis_x, in_axes.y));
     return s;
@@ -95,8 +104,9 @@ FN SurfaceInteraction surface_disk(Primitive p, Real b1, Real b2) {
     vec3 centre = primitive_a(p), edge_u = primitive_b(p), edge_v = primitive_c(p);
     SurfaceInteraction s;
     s.p = add3(centre, add3(scale3(edge_u, b1), scale3(edge_v, b2)));
-    s.error = scale3(add3(abs3(centre), add3(scale3(abs3(edge_u), absR(b1)), scale3(abs3(edge_v), absR(b2)))),
-                     GAMMA(7.f));
+    s.error = scale3(
+        add3(abs3(centre), add3(scale3(abs3(edge_u), absR(b1)), scale3(abs3(edge_v), absR(b2)))),
+        GAMMA(7.f));
     s.ng = scale3(normalize3(cross3(edge_u, edge_v)), primitive_side(p));
     s.ns = s.ng;
     s.tangent = splat3(R(0.));

@@ -1,5 +1,5 @@
-// Mitsuba 3's own render tests: every scene whose plugins we have passes its published z-test, and the mean's; every other is
-// refused with a line that names what is missing.
+// Mitsuba 3's own render tests: every scene whose plugins we have passes its published z-test, and
+// the mean's; every other is refused with a line that names what is missing.
 #include "host/image/comparison.h"
 #include "host/image/exr.h"
 #include "tests/support/render_scene.h"
@@ -61,7 +61,8 @@ Comparison compare_with_reference(const RenderTest& t, RenderCommand command) {
 
 } // namespace
 
-TEST_CASE("Mitsuba's render tests pass where we have the plugins, and the rest say what is missing") {
+TEST_CASE(
+    "Mitsuba's render tests pass where we have the plugins, and the rest say what is missing") {
     const char* data = std::getenv("PARHELION_DATA");
     fs::path folder = data ? fs::path(data) / "mitsuba-tests/tests/scenes" : "";
     if (!data || !fs::is_directory(folder)) {
@@ -78,14 +79,17 @@ TEST_CASE("Mitsuba's render tests pass where we have the plugins, and the rest s
         if (!why_not.empty()) {
             fmt::print("not yet: {}\n", why_not);
             CHECK(why_not.find(".xml:") != std::string::npos);
-            CHECK((why_not.find("supported") != std::string::npos || why_not.find("cannot hold") != std::string::npos));
+            CHECK((why_not.find("supported") != std::string::npos ||
+                   why_not.find("cannot hold") != std::string::npos));
             continue;
         }
         rendered++;
         Comparison c = compare_with_reference(t, command);
         REQUIRE(c.z_test);
-        fmt::print("{}: {:.2f} % of the values pass", t.scene.stem().string(), 100.0 * c.z_test->pixels.fraction());
-        for (const MeanTest& m : c.z_test->means) fmt::print(", mean {} p {:.3f}", m.channel, m.p);
+        fmt::print("{}: {:.2f} % of the values pass", t.scene.stem().string(),
+                   100.0 * c.z_test->pixels.fraction());
+        for (const MeanTest& m : c.z_test->means)
+            fmt::print(", mean {} p {:.3f}", m.channel, m.p);
         fmt::print("\n");
         CHECK(c.z_test->pixels_pass);
         CHECK(c.z_test->means_pass);

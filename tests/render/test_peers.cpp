@@ -1,4 +1,5 @@
-// The four scenes that other renderers were measured on: our means against theirs, and against a double-precision truth.
+// The four scenes that other renderers were measured on: our means against theirs, and against a
+// double-precision truth.
 #include "host/image/exr.h"
 #include "tests/support/render_scene.h"
 
@@ -18,8 +19,9 @@ struct Case {
     double tolerance; ///< relative, of each channel's mean
 };
 
-// Cycles itself is 0.24 % below the truth on the Cornell box (it ends a path one vertex earlier), and its metal and its glass
-// sphere are a mesh and a single-scatter lobe without shadowing details of ours: the mixed scene is allowed 1 %.
+// Cycles itself is 0.24 % below the truth on the Cornell box (it ends a path one vertex earlier),
+// and its metal and its glass sphere are a mesh and a single-scatter lobe without shadowing details
+// of ours: the mixed scene is allowed 1 %.
 const Case cases[] = {{"cornell", "cornell-box/scene.xml", 256, 0.005},
                       {"spheres", "glass-and-metal/scene.xml", 512, 0.01},
                       {"bunny_env", "bunny/env.xml", 64, 0.005},
@@ -28,7 +30,8 @@ const Case cases[] = {{"cornell", "cornell-box/scene.xml", 256, 0.005},
 /// Folder of the references, or empty (and said so) where there is none.
 std::filesystem::path references() {
     const char* data = std::getenv("PARHELION_DATA");
-    std::filesystem::path folder = data ? std::filesystem::path(data).parent_path() / "peers/references" : "";
+    std::filesystem::path folder =
+        data ? std::filesystem::path(data).parent_path() / "peers/references" : "";
     if (data && std::filesystem::is_directory(folder)) return folder;
     WARN("skipped: no peers/references beside PARHELION_DATA");
     return {};
@@ -47,13 +50,16 @@ std::array<double, 3> reference_mean(const std::filesystem::path& folder, const 
     std::array<double, 3> mean{};
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        if (entry.path().filename().string().find("_" + name + "_1024spp") == std::string::npos) continue;
+        if (entry.path().filename().string().find("_" + name + "_1024spp") == std::string::npos)
+            continue;
         std::array<double, 3> one = test::mean_rgb(read_exr(entry.path().string()));
-        for (int c = 0; c < 3; c++) mean[c] += one[c];
+        for (int c = 0; c < 3; c++)
+            mean[c] += one[c];
         count++;
     }
     REQUIRE(count == 4);
-    for (double& m : mean) m /= count;
+    for (double& m : mean)
+        m /= count;
     return mean;
 }
 
@@ -63,7 +69,8 @@ TEST_CASE("peers: channel means agree with Cycles on the four scenes") {
     std::filesystem::path folder = references();
     if (folder.empty()) return;
     for (const Case& c : cases) {
-        if (c.scene.starts_with("bunny") && !std::filesystem::exists("/usr/share/glmark2/models/bunny.obj")) {
+        if (c.scene.starts_with("bunny") &&
+            !std::filesystem::exists("/usr/share/glmark2/models/bunny.obj")) {
             WARN("skipped " << c.scene << ": package glmark2-data is not installed");
             continue;
         }
@@ -73,8 +80,8 @@ TEST_CASE("peers: channel means agree with Cycles on the four scenes") {
         CHECK(ours.report.non_finite_samples == 0);
         for (int i = 0; i < 3; i++) {
             double relative = mean[i] / theirs[i] - 1.0;
-            fmt::print("{:<12} {}: {:.6f}, Cycles {:.6f}, {:+.3f} %\n", c.reference, "RGB"[i], mean[i], theirs[i],
-                       100.0 * relative);
+            fmt::print("{:<12} {}: {:.6f}, Cycles {:.6f}, {:+.3f} %\n", c.reference, "RGB"[i],
+                       mean[i], theirs[i], 100.0 * relative);
             INFO(c.scene << " channel " << i << ": " << mean[i] << ", Cycles " << theirs[i]);
             CHECK(std::abs(relative) <= c.tolerance);
         }

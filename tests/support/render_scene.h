@@ -20,11 +20,14 @@ inline const Device& test_device() {
     return device;
 }
 
-inline std::string source_file(const std::string& path) { return std::string(PARHELION_SOURCE_DIR) + "/" + path; }
+inline std::string source_file(const std::string& path) {
+    return std::string(PARHELION_SOURCE_DIR) + "/" + path;
+}
 
 /// Loads with the command's definitions and overrides applied, as `parhelion render` does.
 inline Scene load(const RenderCommand& command) {
-    Scene scene = load_scene(command.scene_file, {parse_definitions(command.definitions), command.allow_outside});
+    Scene scene = load_scene(command.scene_file,
+                             {parse_definitions(command.definitions), command.allow_outside});
     apply_overrides(command, scene);
     return scene;
 }
@@ -38,7 +41,8 @@ inline RenderResult render_quietly(const Scene& scene, const RenderOptions& opti
 inline std::array<double, 3> mean_rgb(const Image& image) {
     std::array<double, 3> mean{};
     for (int c = 0; c < 3; c++) {
-        for (float v : find_channel(image, std::string(1, "RGB"[c]))->values) mean[c] += v;
+        for (float v : find_channel(image, std::string(1, "RGB"[c]))->values)
+            mean[c] += v;
         mean[c] /= static_cast<double>(image.pixel_count());
     }
     return mean;

@@ -177,7 +177,7 @@ TEST_CASE("scene plugins: sensors") {
     CHECK(plain.film.width == 768);
     CHECK(plain.film.height == 576);
     CHECK(plain.film.pixel_format == PixelFormat::rgb);
-    CHECK(plain.film.component_format == ComponentFormat::float16);
+    CHECK(plain.film.component_format == ComponentFormat::float32);
     CHECK(plain.film.filter.kind == FilterKind::gaussian);
     CHECK(plain.film.filter.stddev == 0.5);
     CHECK(plain.sampler.samples_per_pixel == 4);

@@ -41,7 +41,7 @@ void read_formats(Properties& p, Film& film) {
     constexpr ComponentFormat components[] = {ComponentFormat::float16, ComponentFormat::float32,
                                               ComponentFormat::uint32};
     film.component_format =
-        components[p.choice("component_format", "float16", {"float16", "float32", "uint32"})];
+        components[p.choice("component_format", "float32", {"float16", "float32", "uint32"})];
     p.choice("file_format", "openexr", {"openexr", "exr"});
 }
 
@@ -54,9 +54,10 @@ Film read_hdr_film(Properties& p) {
                        fmt::format("{} pixels in all", max_pixels));
     read_crop(p, film);
     read_formats(p, film);
-    // All samples near the border count here, and sums are exact enough, whatever these say.
-    p.boolean("sample_border", false);
-    p.boolean("high_quality_edges", false);
+    film.sample_border = p.boolean("sample_border", false);
+    film.sample_border =
+        p.boolean("high_quality_edges", false) || film.sample_border; // its older name
+    // Sums are exact enough, and a header is always written, whatever these say.
     p.boolean("compensate", false);
     p.boolean("banner", true);
     return film;

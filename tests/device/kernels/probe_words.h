@@ -1,10 +1,15 @@
-// Probes: shared functions as words in, words out, so that one text calls them on the device and on the host.
+// Probes: shared functions as words in, words out, so that one text calls them on the device and on
+// the host.
 
 #define PROBE_INPUTS 36
 #define PROBE_OUTPUTS 24
 
-typedef struct { Real w[PROBE_INPUTS]; } ProbeIn;
-typedef struct { Real w[PROBE_OUTPUTS]; } ProbeOut;
+typedef struct {
+    Real w[PROBE_INPUTS];
+} ProbeIn;
+typedef struct {
+    Real w[PROBE_OUTPUTS];
+} ProbeOut;
 
 #ifdef __OPENCL_C_VERSION__
 #define wordInt(x) asInt(x)
@@ -29,12 +34,18 @@ FN Interface in_interface(ProbeIn i, int at) {
 
 FN ProbeOut no_output(void) {
     ProbeOut o;
-    for (int k = 0; k < PROBE_OUTPUTS; k++) o.w[k] = R(0.);
+    for (int k = 0; k < PROBE_OUTPUTS; k++)
+        o.w[k] = R(0.);
     return o;
 }
-FN ProbeOut put1(ProbeOut o, int at, Real x) { o.w[at] = x; return o; }
+FN ProbeOut put1(ProbeOut o, int at, Real x) {
+    o.w[at] = x;
+    return o;
+}
 FN ProbeOut put2(ProbeOut o, int at, vec2 v) { return put1(put1(o, at, v.x), at + 1, v.y); }
-FN ProbeOut put3(ProbeOut o, int at, vec3 v) { return put1(put1(put1(o, at, v.x), at + 1, v.y), at + 2, v.z); }
+FN ProbeOut put3(ProbeOut o, int at, vec3 v) {
+    return put1(put1(put1(o, at, v.x), at + 1, v.y), at + 2, v.z);
+}
 FN ProbeOut out1(Real x) { return put1(no_output(), 0, x); }
 FN ProbeOut out2(vec2 v) { return put2(no_output(), 0, v); }
 FN ProbeOut out3(vec3 v) { return put3(no_output(), 0, v); }

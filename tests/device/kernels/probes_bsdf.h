@@ -10,14 +10,18 @@ FN ProbeOut out_sample(BsdfSample s) {
         return out_eval(bsdf_##name##_eval(in_Material(i, 0), in3(i, 16), in3(i, 19)));            \
     }                                                                                              \
     FN ProbeOut probe_##name##_sample(ProbeIn i) {                                                 \
-        return out_sample(bsdf_##name##_sample(in_Material(i, 0), in3(i, 16), in2(i, 19), i.w[21])); \
+        return out_sample(                                                                         \
+            bsdf_##name##_sample(in_Material(i, 0), in3(i, 16), in2(i, 19), i.w[21]));             \
     }
 MATERIALS(BSDF_PROBE_FUNCTIONS)
 
-FN ProbeOut probe_any_bsdf_eval(ProbeIn i) { return out_eval(bsdf_eval(in_Material(i, 0), in3(i, 16), in3(i, 19))); }
+FN ProbeOut probe_any_bsdf_eval(ProbeIn i) {
+    return out_eval(bsdf_eval(in_Material(i, 0), in3(i, 16), in3(i, 19)));
+}
 FN ProbeOut probe_any_bsdf_sample(ProbeIn i) {
     return out_sample(bsdf_sample(in_Material(i, 0), in3(i, 16), in2(i, 19), i.w[21]));
 }
 
 #define BSDF_PROBES(name, sides) PROBE(name##_eval, "mdd", 4) PROBE(name##_sample, "mduuu", 8)
-#define PROBES MATERIALS(BSDF_PROBES) PROBE(any_bsdf_eval, "mdd", 4) PROBE(any_bsdf_sample, "mduuu", 8)
+#define PROBES                                                                                     \
+    MATERIALS(BSDF_PROBES) PROBE(any_bsdf_eval, "mdd", 4) PROBE(any_bsdf_sample, "mduuu", 8)

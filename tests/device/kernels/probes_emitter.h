@@ -15,11 +15,14 @@ FN ProbeOut out_emitter(EmitterSample s) {
         Light l = in_Light(i, 0);                                                                  \
         vec3 p = in3(i, 16);                                                                       \
         EmitterSample s = emitter_##name##_sample(l, p, in2(i, 19));                               \
-        return out2(v2(emitter_##name##_pdf(l, p, s.wi, s.q), mask_word(emitter_##name##_faces(l, s.wi, s.q)))); \
+        return out2(v2(emitter_##name##_pdf(l, p, s.wi, s.q),                                      \
+                       mask_word(emitter_##name##_faces(l, s.wi, s.q))));                          \
     }
 EMITTERS(EMITTER_PROBE_FUNCTIONS)
 
-FN ProbeOut probe_any_emitter_sample(ProbeIn i) { return out_emitter(emitter_sample(in_Light(i, 0), in3(i, 16), in2(i, 19))); }
+FN ProbeOut probe_any_emitter_sample(ProbeIn i) {
+    return out_emitter(emitter_sample(in_Light(i, 0), in3(i, 16), in2(i, 19)));
+}
 FN ProbeOut probe_any_emitter_hit(ProbeIn i) {
     Light l = in_Light(i, 0);
     vec3 p = in3(i, 16);
@@ -29,4 +32,5 @@ FN ProbeOut probe_any_emitter_hit(ProbeIn i) {
 }
 
 #define EMITTER_PROBES(name) PROBE(name##_sample, "lpuu", 17) PROBE(name##_hit, "lpuu", 2)
-#define PROBES EMITTERS(EMITTER_PROBES) PROBE(any_emitter_sample, "lpuu", 17) PROBE(any_emitter_hit, "lpuu", 4)
+#define PROBES                                                                                     \
+    EMITTERS(EMITTER_PROBES) PROBE(any_emitter_sample, "lpuu", 17) PROBE(any_emitter_hit, "lpuu", 4)

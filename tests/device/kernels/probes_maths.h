@@ -1,5 +1,5 @@
-// Probes of vectors, elementary functions, the sampler, warps, frames, Fresnel and microfacets. A letter stands for what its
-// input words hold: tests/support/probe_inputs.h says what.
+// Probes of vectors, elementary functions, the sampler, warps, frames, Fresnel and microfacets. A
+// letter stands for what its input words hold: tests/support/probe_inputs.h says what.
 
 FN ProbeOut probe_cross3(ProbeIn i) { return out3(cross3(in3(i, 0), in3(i, 3))); }
 FN ProbeOut probe_vectors(ProbeIn i) {
@@ -23,7 +23,8 @@ FN ProbeOut probe_random4(ProbeIn i) {
     Random4 r = random4(wordUint(i.w[0]), wordUint(i.w[1]), wordUint(i.w[2]), wordUint(i.w[3]));
     ProbeOut o = put2(no_output(), 0, uniform2(r.x, r.y));
     o = put2(o, 2, uniform2(r.z, r.w));
-    // The integers themselves, in halves: a word that happens to be no number has no bits of its own.
+    // The integers themselves, in halves: a word that happens to be no number has no bits of its
+    // own.
     o = put2(put2(o, 4, v2(toReal(asInt(r.x & 0xffffu)), toReal(asInt(r.x >> 16)))), 6,
              v2(toReal(asInt(r.y & 0xffffu)), toReal(asInt(r.y >> 16))));
     o = put2(put2(o, 8, v2(toReal(asInt(r.z & 0xffffu)), toReal(asInt(r.z >> 16)))), 10,
@@ -48,7 +49,9 @@ FN ProbeOut probe_frame_from_tangent(ProbeIn i) {
 FN ProbeOut probe_reflect(ProbeIn i) {
     return put3(out3(reflect_local(in3(i, 0))), 3, reflect_about(in3(i, 0), in3(i, 3)));
 }
-FN ProbeOut probe_refract_local(ProbeIn i) { return out3(refract_local(in3(i, 0), in_interface(i, 3))); }
+FN ProbeOut probe_refract_local(ProbeIn i) {
+    return out3(refract_local(in3(i, 0), in_interface(i, 3)));
+}
 FN ProbeOut probe_refract_about(ProbeIn i) {
     vec3 w = in3(i, 0), n = in3(i, 3);
     Real c = dot3(w, n);
@@ -61,7 +64,9 @@ FN ProbeOut probe_fresnel_dielectric(ProbeIn i) {
     Fresnel f = fresnel_dielectric(i.w[0], in_interface(i, 1));
     return out3(v3(f.reflectance, f.transmittance, f.g));
 }
-FN ProbeOut probe_fresnel_conductor(ProbeIn i) { return out1(fresnel_conductor(i.w[0], i.w[1], i.w[2])); }
+FN ProbeOut probe_fresnel_conductor(ProbeIn i) {
+    return out1(fresnel_conductor(i.w[0], i.w[1], i.w[2]));
+}
 
 FN ProbeOut probe_ggx(ProbeIn i) {
     vec3 h = in3(i, 0);
@@ -84,12 +89,17 @@ FN ProbeOut probe_russian_roulette(ProbeIn i) {
 }
 
 #define PROBES                                                                                     \
-    PROBE(cross3, "rrrrrr", 3) PROBE(vectors, "rrrrrr", 11) PROBE(neighbours, "f", 2)              \
-    PROBE(sincos_turns, "u", 2) PROBE(exp_negative, "s", 1) PROBE(atan2, "ff", 1) PROBE(acos, "c", 2) \
-    PROBE(random4, "bbbb", 14) PROBE(disk_uniform, "uu", 2) PROBE(hemisphere_cosine, "uu", 3)      \
-    PROBE(sphere_uniform, "uu", 3) PROBE(triangle_uniform, "uu", 2)                                \
-    PROBE(frame, "dp", 15) PROBE(frame_from_tangent, "dp", 9) PROBE(reflect, "dd", 6)              \
-    PROBE(refract_local, "di", 3) PROBE(refract_about, "ddi", 3)                                   \
-    PROBE(fresnel_dielectric, "ci", 3) PROBE(fresnel_conductor, "css", 1)                          \
-    PROBE(ggx, "daa", 3) PROBE(beckmann, "daa", 2) PROBE(ggx_sample_visible, "daauu", 3)           \
-    PROBE(power_heuristic, "rr", 1) PROBE(russian_roulette, "rrrcu", 2)
+    PROBE(cross3, "rrrrrr", 3)                                                                     \
+    PROBE(vectors, "rrrrrr", 11) PROBE(neighbours, "f", 2) PROBE(sincos_turns, "u", 2)             \
+        PROBE(exp_negative, "s", 1) PROBE(atan2, "ff", 1) PROBE(acos, "c", 2)                      \
+            PROBE(random4, "bbbb", 14) PROBE(disk_uniform, "uu", 2)                                \
+                PROBE(hemisphere_cosine, "uu", 3) PROBE(sphere_uniform, "uu", 3)                   \
+                    PROBE(triangle_uniform, "uu", 2) PROBE(frame, "dp", 15)                        \
+                        PROBE(frame_from_tangent, "dp", 9) PROBE(reflect, "dd", 6)                 \
+                            PROBE(refract_local, "di", 3) PROBE(refract_about, "ddi", 3)           \
+                                PROBE(fresnel_dielectric, "ci", 3)                                 \
+                                    PROBE(fresnel_conductor, "css", 1) PROBE(ggx, "daa", 3)        \
+                                        PROBE(beckmann, "daa", 2)                                  \
+                                            PROBE(ggx_sample_visible, "daauu", 3)                  \
+                                                PROBE(power_heuristic, "rr", 1)                    \
+                                                    PROBE(russian_roulette, "rrrcu", 2)

@@ -10,7 +10,8 @@ FN ProbeOut probe_intersect_triangle(ProbeIn i) {
     shear.shear_x = i.w[9] * R(.01);
     shear.shear_y = i.w[10] * R(.01);
     shear.shear_z = i.w[11];
-    return out_intersection(intersect_triangle(in3(i, 0), in3(i, 3), in3(i, 6), shear, absR(i.w[12])));
+    return out_intersection(
+        intersect_triangle(in3(i, 0), in3(i, 3), in3(i, 6), shear, absR(i.w[12])));
 }
 FN ProbeOut probe_intersect_triangle_through_corners(ProbeIn i) {
     vec3 a = in3(i, 0), b = in3(i, 3), c = in3(i, 6);
@@ -25,13 +26,15 @@ FN ProbeOut probe_intersect_sphere(ProbeIn i) {
     return out_intersection(intersect_sphere(in3(i, 0), in3(i, 3), i.w[6], LANE_INFINITY));
 }
 FN ProbeOut probe_intersect_disk(ProbeIn i) {
-    return out_intersection(intersect_disk(in3(i, 0), in3(i, 3), in3(i, 6), in3(i, 9), LANE_INFINITY));
+    return out_intersection(
+        intersect_disk(in3(i, 0), in3(i, 3), in3(i, 6), in3(i, 9), LANE_INFINITY));
 }
 FN ProbeOut probe_box_overlap(ProbeIn i) {
     return out1(mask_word(box_overlap(i.w[0], i.w[1], i.w[2], i.w[3], i.w[4], i.w[5], i.w[6])));
 }
 FN ProbeOut probe_leave_surface(ProbeIn i) {
-    return out3(leave_surface(in3(i, 0), abs3(scale3(in3(i, 3), GAMMA(7.f))), in3(i, 6), in3(i, 9)));
+    return out3(
+        leave_surface(in3(i, 0), abs3(scale3(in3(i, 3), GAMMA(7.f))), in3(i, 6), in3(i, 9)));
 }
 FN ProbeOut out_surface(SurfaceInteraction s) {
     ProbeOut o = put3(put3(put3(no_output(), 0, s.p), 3, s.error), 6, s.ng);
@@ -46,21 +49,26 @@ FN ProbeOut probe_surface_triangle(ProbeIn i) {
 FN ProbeOut probe_surface_vertex_attributes(ProbeIn i) {
     vec2 b = triangle_uniform(in2(i, 32));
     Primitive p = in_Primitive(i, 0);
-    return out_surface(surface_vertex_attributes(surface_triangle(p, b.x, b.y), p, in_Vertex(i, 16), b.x, b.y));
+    return out_surface(
+        surface_vertex_attributes(surface_triangle(p, b.x, b.y), p, in_Vertex(i, 16), b.x, b.y));
 }
-FN ProbeOut probe_surface_sphere(ProbeIn i) { return out_surface(surface_sphere(in_Primitive(i, 0), in3(i, 16))); }
+FN ProbeOut probe_surface_sphere(ProbeIn i) {
+    return out_surface(surface_sphere(in_Primitive(i, 0), in3(i, 16)));
+}
 FN ProbeOut probe_surface_disk(ProbeIn i) {
     vec2 d = disk_uniform(in2(i, 16));
     return out_surface(surface_disk(in_Primitive(i, 0), d.x, d.y));
 }
 FN ProbeOut probe_camera_ray(ProbeIn i) {
-    CameraRay r = camera_ray(in_Camera(i, 0), v2(i.w[21] * R(1000.), i.w[22] * R(1000.)), disk_uniform(in2(i, 23)));
+    CameraRay r = camera_ray(in_Camera(i, 0), v2(i.w[21] * R(1000.), i.w[22] * R(1000.)),
+                             disk_uniform(in2(i, 23)));
     return put1(put3(out3(r.origin), 3, r.direction), 6, r.t_max);
 }
 
 #define PROBES                                                                                     \
-    PROBE(intersect_triangle, "pppcccr", 4) PROBE(intersect_triangle_through_corners, "pppu", 4)   \
-    PROBE(intersect_sphere, "pps", 4) PROBE(intersect_disk, "pppp", 4)                             \
-    PROBE(box_overlap, "rrrrrrr", 1) PROBE(leave_surface, "ppdd", 3)                               \
-    PROBE(surface_triangle, "guu", 23) PROBE(surface_vertex_attributes, "gvuu", 23)                \
-    PROBE(surface_sphere, "gp", 23) PROBE(surface_disk, "guu", 23) PROBE(camera_ray, "kuuuu", 7)
+    PROBE(intersect_triangle, "pppcccr", 4)                                                        \
+    PROBE(intersect_triangle_through_corners, "pppu", 4) PROBE(intersect_sphere, "pps", 4)         \
+        PROBE(intersect_disk, "pppp", 4) PROBE(box_overlap, "rrrrrrr", 1)                          \
+            PROBE(leave_surface, "ppdd", 3) PROBE(surface_triangle, "guu", 23)                     \
+                PROBE(surface_vertex_attributes, "gvuu", 23) PROBE(surface_sphere, "gp", 23)       \
+                    PROBE(surface_disk, "guu", 23) PROBE(camera_ray, "kuuuu", 7)
