@@ -145,7 +145,7 @@ double log_sensitivity(const f64::Material& m, const MaterialCase& c, f64::vec3 
 } // namespace
 
 TEMPLATE_TEST_CASE(
-    "Materials: reciprocity; across an interface with the square of the relative index", "[bsdf]",
+    "Materials: reciprocity, across an interface with the square of the relative index", "[bsdf]",
     F32, F64) {
     const double epsilon = std::numeric_limits<typename TestType::Real>::epsilon();
     Random random(13);

@@ -50,7 +50,7 @@ float random_cosine(Random& random) {
 
 } // namespace
 
-TEST_CASE("Fresnel: dielectric reflectance within 16 ulp, transmittance within 8, both in [0, 1]",
+TEST_CASE("Fresnel: dielectric reflectance within 16 ulp, transmittance within 8, both from 0 to 1",
           "[fresnel]") {
     Random random(31);
     Worst reflectance, transmittance;
@@ -108,7 +108,7 @@ TEST_CASE("Fresnel: an index of 1 is no interface, to the bit", "[fresnel]") {
     }
 }
 
-TEST_CASE("Fresnel: conductor within 32 ulp, in [0, 1]", "[fresnel]") {
+TEST_CASE("Fresnel: conductor within 32 ulp, from 0 to 1", "[fresnel]") {
     Random random(34);
     Worst worst;
     bool in_range = true;

@@ -108,7 +108,7 @@ TEST_CASE("Triangles: no ray leaves a closed mesh through an edge or a vertex", 
     CHECK(count_leaks(1, {1e6, 1e6, 1e6}, 200000) == 0);
 }
 
-TEST_CASE("Triangles: distance and barycentrics against double; misses miss", "[intersect]") {
+TEST_CASE("Triangles: distance and barycentrics against double, and misses miss", "[intersect]") {
     Random random(62);
     Worst distance, place;
     for (int n = 0; n < 300000; n++) {

@@ -32,7 +32,7 @@ double top(f32::Random4 r, int output) {
 
 } // namespace
 
-TEST_CASE("Sampler: uniform numbers lie in [0, 1[ and never are 1", "[sampler]") {
+TEST_CASE("Sampler: uniform numbers are never below 0 and never 1", "[sampler]") {
     CHECK(f32::uniform01(0) == 0);
     CHECK(f32::uniform01(0xffffffffu) == 1 - 0x1p-24f);
     CHECK(f32::uniform01(0x80000000u) == 0.5f);

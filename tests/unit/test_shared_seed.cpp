@@ -61,7 +61,7 @@ TEMPLATE_TEST_CASE("Seed b: mirror reflection in the tangent frame", "[seed]", F
 }
 
 TEMPLATE_TEST_CASE(
-    "Seed c: dielectric refraction; from below the indices swap and z flips; zero on total "
+    "Seed c: dielectric refraction, from below the indices swap and z flips, zero on total "
     "internal reflection",
     "[seed]", F32, F64) {
     const double n_below = 1.5;
