@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <string_view>
 
 namespace parhelion {
@@ -29,9 +28,13 @@ struct Header {
 };
 
 std::optional<std::string> read_file(const std::filesystem::path& path) {
+    std::error_code error; // a folder of that name, say
+    std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error) return std::nullopt;
+    std::string text(size, '\0');
     std::ifstream in(path, std::ios::binary);
-    if (!in) return std::nullopt;
-    return std::string(std::istreambuf_iterator<char>(in), {});
+    if (!in.read(text.data(), static_cast<std::streamsize>(size))) return std::nullopt;
+    return text;
 }
 
 } // namespace
