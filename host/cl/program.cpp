@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <sstream>
 
 namespace parhelion {
 namespace {
@@ -14,6 +15,19 @@ namespace {
 std::string option_text(const ProgramOptions& options) {
     return fmt::format("-cl-std=CL1.2 -DLANES={} -DFEATURE_MASK=0x{:x}ul{}", options.lanes,
                        options.features, options.portable ? " -DPORTABLE" : "");
+}
+
+/// The lines of a compiler's log that say what is wrong; one mistake in a header gives hundreds.
+std::string first_errors(const std::string& log) {
+    constexpr int most = 8;
+    std::istringstream lines(log);
+    std::string line, errors;
+    for (int count = 0; count < most && std::getline(lines, line);) {
+        if (line.find("error") == std::string::npos) continue;
+        errors += line + "\n";
+        count++;
+    }
+    return errors.empty() ? log : errors;
 }
 
 std::string kernel_name(const std::string& file) { return file.substr(0, file.find('.')); }
@@ -54,7 +68,7 @@ void Program::build_source(const cl::Context& context, const Device& device,
     try {
         program_.build({device.handle}, options_.c_str());
     } catch (const cl::Error& e) {
-        std::string log = program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle);
+        std::string log = first_errors(program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle));
         throw DeviceError(fmt::format("kernel file {} does not compile on {}: {}\n{}", file_,
                                       device.name, opencl_error_name(e.err()), log));
     }

@@ -6,6 +6,8 @@
 #ifndef PARHELION_BUFFERS_H
 #define PARHELION_BUFFERS_H
 
+// clang-format off: the lists below are tables
+
 // element type, name: the scene, read only
 #define SCENE_BUFFERS(X)                                                                           \
     X(BvhNode, bvh_nodes)                                                                          \
@@ -58,5 +60,7 @@ enum Statistic { STATISTICS(STATISTIC_ENUM) statistic_count };
 // A segment has this many spare entries behind it where lanes are many: a packed store overwrites
 // them.
 #define SEGMENT_PADDING 16
+
+// clang-format on
 
 #endif

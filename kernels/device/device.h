@@ -1,9 +1,11 @@
 // What every kernel starts from: the shared maths, the buffers and the common parameters.
 
-#include "device/buffers.h"
 #include "shared/features.h"
-#include "shared/shared.h"
 #include "shared/types.h"
+
+#include "shared/shared.h"
+
+#include "device/buffers.h"
 
 #define SCENE_PARAMETER(type, name) global const type *restrict name,
 #define WORK_PARAMETER(type, name) global type *restrict name,

@@ -6,6 +6,8 @@
 #define PARHELION_FEATURES_H
 
 // clang-format off
+#define GEOMETRIES(X) X(triangle) X(sphere) X(disk)
+
 // An opaque material answers for its upper side only and is turned over to be seen from below.
 #define MATERIALS(X)                                                                               \
     X(diffuse, opaque) X(conductor, opaque) X(dielectric, transparent)                             \

@@ -15,11 +15,11 @@
 
 #define FIELD_DECLARE(type, name) type name;
 
+// clang-format off: the lists below are tables
+
 // ------------------------------------------------------------------------------------------------
 // geometry kind      a            b         c         radius triangle  vertex 0     vertex 1 vertex
 // 2  - sphere    centre       axis x    axis z    radius disk      centre       edge u    edge v -
-#define GEOMETRIES(X) X(triangle) X(sphere) X(disk)
-
 #define PRIMITIVE_FIELDS(X)                                                                        \
     X(float, ax)                                                                                   \
     X(float, ay) X(float, az) X(float, bx) X(float, by) X(float, bz) X(float, cx) X(float, cy)     \
@@ -171,5 +171,7 @@ typedef struct {
 LAYOUT(WaveParams, 16);
 
 #define BLOCK_PIXELS 16
+
+// clang-format on
 
 #endif
