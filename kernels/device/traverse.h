@@ -19,19 +19,13 @@ typedef struct {
     float shear[3];
 } TraversalRay;
 
-/// 1/d, but finite for an axis the ray is parallel to: 0 * infinity would be no number on the
-/// planes of a box.
-FN float axis_inverse(float d) {
-    float inverse = 1.f / d;
-    return isinf(inverse) ? copysign(MAXFLOAT, d) : inverse;
-}
-
 FN TraversalRay traversal_ray(float ox, float oy, float oz, float dx, float dy, float dz) {
     TraversalRay r;
     r.origin[0] = ox, r.origin[1] = oy, r.origin[2] = oz;
     r.direction[0] = dx, r.direction[1] = dy, r.direction[2] = dz;
     for (int a = 0; a < 3; a++) {
-        r.inverse[a] = axis_inverse(r.direction[a]);
+        r.inverse[a] =
+            1.f / r.direction[a]; // infinite for an axis the ray is parallel to: see box_overlap
         int negative = r.inverse[a] < 0.f;
         r.near_row[a] = 2 * a + negative;
         r.far_row[a] = 2 * a + 1 - negative;
