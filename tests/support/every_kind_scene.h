@@ -74,6 +74,7 @@ inline Scene every_kind_scene() {
     scene.camera.aperture_radius = 0.05, scene.camera.focus_distance = 4.3;
     scene.film.width = scene.film.crop_width = 40;
     scene.film.height = scene.film.crop_height = 30;
+    scene.film.pixel_format = PixelFormat::rgba;
     scene.film.filter.kind = FilterKind::gaussian;
     scene.integrator.rr_depth = 3;
     scene.integrator.second_moment = true;

@@ -115,26 +115,26 @@ private:
 
     void run(const Program& program, const Sizes& s, const Buffer<float>& path_state,
              const Buffer<float>& shadow_state, const Buffer<float>& results) const {
-        std::vector<int> counts(2 * s.segments);
-        for (std::size_t i = 0; i < counts.size(); i++)
-            counts[i] = static_cast<int>(std::min<std::size_t>(segment, s.rays - i / 2 * segment));
-        Buffer<int> count_buffer = device_copy(d_, "counts", counts);
+        std::vector<int> entries(2 * s.segments);
+        for (std::size_t i = 0; i < entries.size(); i++)
+            entries[i] = static_cast<int>(std::min<std::size_t>(segment, s.rays - i / 2 * segment));
+        Buffer<int> counts = device_copy(d_, "counts", entries);
         Buffer<ulong> statistics =
             device_copy(d_, "statistics", std::vector<ulong>(statistic_count * s.segments));
-        Buffer<int> primitives, vertices, materials, lights, light_aliases,
-            filter_table; // not read by these kernels
+        const Buffer<BvhNode>& bvh_nodes = nodes_;
+        const Buffer<BvhLeaf>& bvh_leaves = leaves_;
+        // Not read by these kernels.
+        Buffer<int> primitives, vertices, materials, lights, light_aliases, filter_table, film;
         RenderParams params{};
         params.state_stride = params.path_capacity = static_cast<int>(s.stride());
         params.segment_size = params.segment_stride = segment;
         params.root = params.camera_root = root_;
         cl::Kernel kernel = program.kernel();
         cl_uint argument = 0;
-        for (const cl::Buffer& handle :
-             {nodes_.handle(), leaves_.handle(), primitives.handle(), vertices.handle(),
-              materials.handle(), lights.handle(), light_aliases.handle(), filter_table.handle(),
-              path_state.handle(), shadow_state.handle(), results.handle(), count_buffer.handle(),
-              statistics.handle(), results.handle()})
-            kernel.setArg(argument++, handle);
+#define SET_BUFFER(type, name) kernel.setArg(argument++, name.handle());
+        SCENE_BUFFERS(SET_BUFFER)
+        WORK_BUFFERS(SET_BUFFER)
+#undef SET_BUFFER
         kernel.setArg(argument++, params);
         kernel.setArg(argument++, WaveParams{});
         kernel.setArg(argument++, 1);
