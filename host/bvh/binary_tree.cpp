@@ -10,14 +10,14 @@
 namespace parhelion {
 namespace {
 
-constexpr int BINARY_LEAF = 16;       // references that are not divided further
-constexpr int TASK_REFERENCES = 4096; // subtrees of more are built by tasks of their own
-constexpr int SAH_DEPTH = 256;        // below, subtrees are halved: bounds the recursion
+constexpr int binary_leaf_size = 16;  // references that are not divided further
+constexpr int task_references = 4096; // subtrees of more are built by tasks of their own
+constexpr int deepest_sah = 256;      // below, subtrees are halved: bounds the recursion
 
 class TreeBuilder {
 public:
     TreeBuilder(BinaryTree& tree, SplitMethod method) : tree_(tree), method_(method) {
-        if (tree.references.size() > PARALLEL_RANGE) scratch_.resize(tree.references.size());
+        if (tree.references.size() > parallel_range) scratch_.resize(tree.references.size());
     }
 
     void build(int index, int first, int count, int depth) {
@@ -26,13 +26,13 @@ public:
         node = {range_box(range), -1, first, count, -1};
         bool small = count <= BVH_WIDTH;
         if (small && one_kind(range)) node.kind = range.front().kind();
-        if (count <= BINARY_LEAF && node.kind >= 0) return;
+        if (count <= binary_leaf_size && node.kind >= 0) return;
         int left =
             small && node.kind < 0 ? int(split_by_kind(range)) : int(split(range, first, depth));
         node.children = node_count_.fetch_add(2, std::memory_order_relaxed);
         auto build_left = [&] { build(node.children, first, left, depth + 1); };
         auto build_right = [&] { build(node.children + 1, first + left, count - left, depth + 1); };
-        if (count > TASK_REFERENCES) {
+        if (count > task_references) {
             tbb::task_group group;
             group.run(build_left);
             build_right();
@@ -47,8 +47,8 @@ public:
 
 private:
     std::size_t split(std::span<Reference> range, int first, int depth) {
-        if (method_ == SplitMethod::halves || depth >= SAH_DEPTH) return split_in_half(range);
-        bool large = range.size() > PARALLEL_RANGE;
+        if (method_ == SplitMethod::halves || depth >= deepest_sah) return split_in_half(range);
+        bool large = range.size() > parallel_range;
         return split_by_surface_area(range, large ? std::span(&scratch_[first], range.size())
                                                   : std::span<Reference>());
     }

@@ -14,7 +14,7 @@ struct Interval {
     float low, high;
 };
 
-constexpr float INFINITE = std::numeric_limits<float>::infinity();
+constexpr float infinite = std::numeric_limits<float>::infinity();
 
 Interval triangle_extent(float a, float b, float c) {
     return {std::min({a, b, c}), std::max({a, b, c})};
@@ -23,8 +23,8 @@ Interval triangle_extent(float a, float b, float c) {
 /// The floats next to centre -+ reach, outward: the conversion to float may round inward by half a
 /// unit.
 Interval outward(float centre, double reach) {
-    return {std::nextafter(float(centre - reach), -INFINITE),
-            std::nextafter(float(centre + reach), INFINITE)};
+    return {std::nextafter(float(centre - reach), -infinite),
+            std::nextafter(float(centre + reach), infinite)};
 }
 
 /// The point of { a u + b v : a^2 + b^2 <= 1 } farthest along an axis is sqrt(u^2 + v^2) away, u

@@ -15,7 +15,8 @@ namespace parhelion {
 /// fill them touch them first.
 template<class T>
 struct CacheLineAllocator {
-    using value_type = T;
+    using value_type =
+        T; // NOLINT(readability-identifier-naming): the allocator requirements name it
     static constexpr std::align_val_t alignment{64};
 
     CacheLineAllocator() = default;
@@ -55,7 +56,7 @@ struct BvhStatistics {
 };
 
 /// Entries of the stack with which the kernels walk (STACK_SIZE in kernels/device/traverse.h).
-inline constexpr int BVH_STACK_LIMIT = 512;
+inline constexpr int bvh_stack_limit = 512;
 
 /// Builds a tree over the primitives numbered in `subset` and appends it to bvh; returns the root
 /// as a child code:
@@ -64,10 +65,10 @@ inline constexpr int BVH_STACK_LIMIT = 512;
 /// need more than `stack_limit` stack entries is built again by halving, which needs at most 15
 /// (log2(n) + 3). Coordinates are finite; at most 2^29 leaves in bvh.
 int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::span<const int> subset,
-               BvhStatistics* statistics = nullptr, int stack_limit = BVH_STACK_LIMIT);
+               BvhStatistics* statistics = nullptr, int stack_limit = bvh_stack_limit);
 
 /// The same over all primitives.
 int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives,
-               BvhStatistics* statistics = nullptr, int stack_limit = BVH_STACK_LIMIT);
+               BvhStatistics* statistics = nullptr, int stack_limit = bvh_stack_limit);
 
 } // namespace parhelion

@@ -9,8 +9,8 @@ namespace parhelion {
 namespace {
 
 // Measured: a leaf of 16 triangles costs 0.7 of a node with 16 children.
-constexpr float NODE_COST = 1.f, LEAF_COST = 0.7f;
-constexpr int TASK_REFERENCES = 4096;
+constexpr float cost_of_node = 1.f, cost_of_leaf = 0.7f;
+constexpr int task_references = 4096;
 
 /// [roots]: least cost of a subtree represented by at most so many wide children, roots = 1 to 15.
 using Costs = std::array<float, BVH_WIDTH>;
@@ -28,13 +28,13 @@ public:
         choice.left_roots.fill(0);
         float probability = float(half_area(node.box) * inverse_area_);
         Costs costs;
-        costs.fill(probability * LEAF_COST);
+        costs.fill(probability * cost_of_leaf);
         if (node.children < 0) return costs;
         Costs left, right;
         plan_children(node, left, right);
         Division inside = best_division(left, right, BVH_WIDTH);
         choice.left_roots[BVH_WIDTH] = inside.left_roots;
-        float node_cost = probability * NODE_COST + inside.cost;
+        float node_cost = probability * cost_of_node + inside.cost;
         if (!node.fits_leaf() || node_cost < costs[1]) {
             costs[1] = node_cost;
             choice.left_roots[1] = 1;
@@ -64,7 +64,7 @@ private:
     }
 
     void plan_children(const BinaryNode& node, Costs& left, Costs& right) const {
-        if (node.count > TASK_REFERENCES) {
+        if (node.count > task_references) {
             tbb::task_group group;
             group.run([&] { left = plan(node.children); });
             right = plan(node.children + 1);

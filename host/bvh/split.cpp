@@ -12,8 +12,8 @@
 namespace parhelion {
 namespace {
 
-constexpr int BINS = 32;
-constexpr std::size_t GRAIN = 1 << 13; // references in a task
+constexpr int bin_count = 32;
+constexpr std::size_t grain_size = 1 << 13; // references in a task
 
 using Int4 = int __attribute__((vector_size(16)));
 using Blocks = tbb::blocked_range<std::size_t>;
@@ -28,8 +28,8 @@ T reduce(std::span<const Reference> range, const T& start, const Fold& fold, con
             fold(value, range[i]);
         return value;
     };
-    Blocks all(0, range.size(), GRAIN);
-    return range.size() > PARALLEL_RANGE ? tbb::parallel_reduce(all, start, serial, join)
+    Blocks all(0, range.size(), grain_size);
+    return range.size() > parallel_range ? tbb::parallel_reduce(all, start, serial, join)
                                          : serial(all, start);
 }
 
@@ -49,13 +49,13 @@ struct Grid {
     /// the last bin.
     Int4 bin_of(const Reference& reference) const {
         Float4 position = (half_centre(reference) - origin) * scale;
-        return __builtin_convertvector(minimum(position, Float4{} + (BINS - 1)), Int4);
+        return __builtin_convertvector(minimum(position, Float4{} + (bin_count - 1)), Int4);
     }
 };
 
 struct Bins {
-    std::array<std::array<Box, BINS>, 3> boxes;
-    std::array<std::array<int, BINS>, 3> counts;
+    std::array<std::array<Box, bin_count>, 3> boxes;
+    std::array<std::array<int, bin_count>, 3> counts;
 };
 
 Bins empty_bins() {
@@ -78,7 +78,7 @@ Bins fill_bins(std::span<const Reference> range, const Grid& grid) {
     };
     auto join = [](Bins a, const Bins& b) {
         for (int axis = 0; axis < 3; axis++)
-            for (int i = 0; i < BINS; i++) {
+            for (int i = 0; i < bin_count; i++) {
                 a.boxes[axis][i] = box_union(a.boxes[axis][i], b.boxes[axis][i]);
                 a.counts[axis][i] += b.counts[axis][i];
             }
@@ -95,15 +95,15 @@ struct Plane {
 };
 
 /// Leaves are tested 16 primitives at a time.
-double blocks_of(int count) { return (count + BVH_WIDTH - 1) / BVH_WIDTH; }
+int blocks_of(int count) { return (count + BVH_WIDTH - 1) / BVH_WIDTH; }
 
 /// The cheapest plane of one axis; of equally cheap ones the most balanced.
-Plane best_plane(const std::array<Box, BINS>& boxes, const std::array<int, BINS>& counts,
+Plane best_plane(const std::array<Box, bin_count>& boxes, const std::array<int, bin_count>& counts,
                  int axis) {
-    std::array<double, BINS> above_cost;
+    std::array<double, bin_count> above_cost;
     Box box = empty_box();
     int total = 0;
-    for (int i = BINS - 1; i > 0; i--) {
+    for (int i = bin_count - 1; i > 0; i--) {
         box = box_union(box, boxes[i]);
         total += counts[i];
         above_cost[i] = total ? half_area(box) * blocks_of(total) : 0;
@@ -112,7 +112,7 @@ Plane best_plane(const std::array<Box, BINS>& boxes, const std::array<int, BINS>
     Plane best;
     box = empty_box();
     int below = 0;
-    for (int i = 0; i < BINS - 1; i++) {
+    for (int i = 0; i < bin_count - 1; i++) {
         if (counts[i] == 0) continue; // the same division as the plane before
         box = box_union(box, boxes[i]);
         below += counts[i];
@@ -140,12 +140,12 @@ Plane best_plane(const Bins& bins) {
 template<class Test>
 std::size_t parallel_partition(std::span<Reference> range, std::span<Reference> scratch,
                                const Test& first_part) {
-    std::size_t tasks = (range.size() + GRAIN - 1) / GRAIN;
+    std::size_t tasks = (range.size() + grain_size - 1) / grain_size;
     std::vector<std::size_t> first_before(tasks + 1, 0);
     auto for_tasks = [&](auto&& body) {
         tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-            std::size_t begin = task * GRAIN;
-            body(task, begin, std::min(begin + GRAIN, range.size()));
+            std::size_t begin = task * grain_size;
+            body(task, begin, std::min(begin + grain_size, range.size()));
         });
     };
     for_tasks([&](std::size_t task, std::size_t begin, std::size_t end) {
@@ -186,13 +186,13 @@ bool one_kind(std::span<const Reference> range) {
 
 std::size_t split_by_surface_area(std::span<Reference> range, std::span<Reference> scratch) {
     Box centres = centre_box(range);
-    Grid grid{centres.low, BINS / (centres.high - centres.low)};
+    Grid grid{centres.low, bin_count / (centres.high - centres.low)};
     Plane plane = best_plane(fill_bins(range, grid));
     if (plane.axis < 0) return split_in_half(range);
     auto first_part = [&](const Reference& r) {
         return grid.bin_of(r)[plane.axis] <= plane.last_bin;
     };
-    return range.size() > PARALLEL_RANGE ? parallel_partition(range, scratch, first_part)
+    return range.size() > parallel_range ? parallel_partition(range, scratch, first_part)
                                          : partition_serial(range, first_part);
 }
 

@@ -9,7 +9,7 @@
 namespace parhelion {
 
 /// A range longer than this is worked on by several threads.
-inline constexpr std::size_t PARALLEL_RANGE = 1 << 15;
+inline constexpr std::size_t parallel_range = 1 << 15;
 
 /// The box around all references.
 Box range_box(std::span<const Reference> range);

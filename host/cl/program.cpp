@@ -55,7 +55,7 @@ bool Program::build_from(const cl::Context& context, const Device& device,
     try {
         program_ = cl::Program(context, {device.handle}, {binary});
         program_.build({device.handle});
-        cl::Kernel(program_, kernel_name(file_).c_str());
+        kernel(); // a binary without it is of no use
         return true;
     } catch (const cl::Error&) {
         return false; // from another build of the driver, say: the source is at hand

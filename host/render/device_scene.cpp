@@ -65,12 +65,10 @@ void add_shape(const Mesh& mesh, const Shape& shape, int index, DeviceScene& out
         (mesh.normals.empty() ? 0 : PRIMITIVE_NORMALS) | (mesh.uvs.empty() ? 0 : PRIMITIVE_UVS);
     bool attributes =
         out.features & (feature_bit(feature_vertex_normals) | feature_bit(feature_vertex_uvs));
-    bool one_primitive =
-        shape.plugin == "rectangle"; // two triangles here, one primitive to the user
     for (std::size_t i = 0; i < mesh.triangles.size(); i++) {
         const glm::uvec3& t = mesh.triangles[i];
         PrimitiveRecord p = primitive(shape, index, geometry_triangle, flags);
-        p.index_in_shape = one_primitive ? 0 : static_cast<int>(i);
+        p.index_in_shape = static_cast<int>(i);
         set_points(p, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
         out.primitives.push_back(p);
         if (attributes) out.vertices.push_back(vertex_record(mesh, t));

@@ -6,14 +6,15 @@
 #ifndef PARHELION_BUFFERS_H
 #define PARHELION_BUFFERS_H
 
-// clang-format off: the lists below are tables
+// The lists below are tables.
+// clang-format off
 
 // element type, name: the scene, read only
 #define SCENE_BUFFERS(X)                                                                           \
-    X(BvhNode, bvh_nodes)                                                                          \
-    X(BvhLeaf, bvh_leaves) X(PrimitiveRecord, primitives) X(VertexRecord, vertices)                \
-        X(MaterialRecord, materials) X(LightRecord, lights) X(LightAlias, light_aliases)           \
-            X(FilterBin, filter_table)
+    X(BvhNode, bvh_nodes) X(BvhLeaf, bvh_leaves)                                                   \
+    X(PrimitiveRecord, primitives) X(VertexRecord, vertices)                                       \
+    X(MaterialRecord, materials) X(LightRecord, lights) X(LightAlias, light_aliases)               \
+    X(FilterBin, filter_table)
 
 // element type, name: what a render works on
 //   path_state    PATH_FIELDS x state_stride: live paths, packed at the front of each segment
@@ -23,29 +24,27 @@
 //   statistics    STATISTICS a segment
 //   film          2 floats (sum, rounding error of the sum) x channels x film_pixels
 #define WORK_BUFFERS(X)                                                                            \
-    X(float, path_state)                                                                           \
-    X(float, shadow_state) X(float, results) X(int, counts) X(ulong, statistics) X(float, film)
+    X(float, path_state) X(float, shadow_state) X(float, results)                                  \
+    X(int, counts) X(ulong, statistics) X(float, film)
 
-// One path: ray (t: the end of the ray, then the distance of the hit), throughput, density of its
-// direction, product of the indices of refraction, hit coordinates, its slot, its random number
-// stream, what the ray must not hit, what it hit.
+// One path: ray (t: the end of the ray, then the distance of the hit), throughput, density of its direction, product of the
+// indices of refraction, hit coordinates, its slot, its random number stream, what the ray must not hit, what it hit.
 #define PATH_FIELDS(X)                                                                             \
-    X(float, ox)                                                                                   \
-    X(float, oy) X(float, oz) X(float, dx) X(float, dy) X(float, dz) X(float, t) X(float, tr)      \
-        X(float, tg) X(float, tb) X(float, pdf) X(float, eta_scale) X(float, b1) X(float, b2)      \
-            X(int, slot) X(int, pixel) X(int, sample) X(int, excluded) X(int, primitive)
+    X(float, ox) X(float, oy) X(float, oz) X(float, dx) X(float, dy) X(float, dz) X(float, t)      \
+    X(float, tr) X(float, tg) X(float, tb) X(float, pdf) X(float, eta_scale)                       \
+    X(float, b1) X(float, b2)                                                                      \
+    X(int, slot) X(int, pixel) X(int, sample) X(int, excluded) X(int, primitive)
 
 // A shadow ray and what it brings if nothing is in its way.
 #define SHADOW_FIELDS(X)                                                                           \
-    X(float, ox)                                                                                   \
-    X(float, oy) X(float, oz) X(float, dx) X(float, dy) X(float, dz) X(float, t) X(float, r)       \
-        X(float, g) X(float, b) X(int, slot) X(int, excluded)
+    X(float, ox) X(float, oy) X(float, oz) X(float, dx) X(float, dy) X(float, dz) X(float, t)      \
+    X(float, r) X(float, g) X(float, b)                                                            \
+    X(int, slot) X(int, excluded)
 
 // What a path slot gathers; the AOV channels follow.
 #define RESULT_FIELDS(X) X(float, r) X(float, g) X(float, b) X(float, alpha) X(float, weight)
 
-// Film channels before the AOVs: the results in the same order, then the squares of r, g, b if
-// HAS(moments).
+// Film channels before the AOVs: the results in the same order, then the squares of r, g, b if HAS(moments).
 #define STATISTICS(X) X(camera_rays) X(bounce_rays) X(shadow_rays) X(non_finite_samples)
 
 #define PATH_ENUM(type, name) path_##name,
@@ -57,8 +56,7 @@ enum ResultField { RESULT_FIELDS(RESULT_ENUM) result_field_count };
 #define STATISTIC_ENUM(name) statistic_##name,
 enum Statistic { STATISTICS(STATISTIC_ENUM) statistic_count };
 
-// A segment has this many spare entries behind it where lanes are many: a packed store overwrites
-// them.
+// A segment has this many spare entries behind it where lanes are many: a packed store overwrites them.
 #define SEGMENT_PADDING 16
 
 // clang-format on

@@ -93,7 +93,7 @@ FN SinCos sincos_turns(Real u) {
 
 /// exp(x) for x <= 0, relative error below 2e-7; 0 where the result would be denormal (x < -87.3).
 FN Real exp_negative(Real x) {
-    Real in_range = maxR(x, R(-88.));
+    Real in_range = maxR(x, R(-88.)); // of no number too; it is given back below
     Int n = toInt(in_range * R(1.44269504088896341) - .5f);
     Real t = toReal(n);
     Real r = (in_range - t * R(0.693359375)) - t * R(-2.12194440e-4);
@@ -104,7 +104,7 @@ FN Real exp_negative(Real x) {
     p = p * r + R(1.6666665459e-1);
     p = p * r + .5f;
     Real e = (p * r * r + r) + 1.f;
-    return sel(x < R(-87.3), R(0.), scale_by_power_of_two(e, n));
+    return sel(x == x, sel(x < R(-87.3), R(0.), scale_by_power_of_two(e, n)), x);
 }
 
 /// atan2, absolute error below 3e-7; atan2(0, 0) = 0. Minimax polynomial on [0, tan(pi/8)]

@@ -15,145 +15,136 @@
 
 #define FIELD_DECLARE(type, name) type name;
 
-// clang-format off: the lists below are tables
+// The lists below are tables.
+// clang-format off
 
-// ------------------------------------------------------------------------------------------------
-// geometry kind      a            b         c         radius triangle  vertex 0     vertex 1 vertex
-// 2  - sphere    centre       axis x    axis z    radius disk      centre       edge u    edge v -
+// ------------------------------------------------------------------------------------------------ geometry
+// kind      a            b         c         radius
+// triangle  vertex 0     vertex 1  vertex 2  -
+// sphere    centre       axis x    axis z    radius
+// disk      centre       edge u    edge v    -
 #define PRIMITIVE_FIELDS(X)                                                                        \
-    X(float, ax)                                                                                   \
-    X(float, ay) X(float, az) X(float, bx) X(float, by) X(float, bz) X(float, cx) X(float, cy)     \
-        X(float, cz) X(float, radius) X(int, material_front)                                       \
-            X(int, material_back) /* -1: absorbs */                                                \
-        X(int, light)             /* row of the light table, -1: does not emit */                  \
-        X(int, shape) X(int, index_in_shape) X(int, flags) /* geometry kind | PRIMITIVE_* */
-typedef struct {
-    PRIMITIVE_FIELDS(FIELD_DECLARE)
-} PrimitiveRecord;
+    X(float, ax) X(float, ay) X(float, az)                                                         \
+    X(float, bx) X(float, by) X(float, bz)                                                         \
+    X(float, cx) X(float, cy) X(float, cz)                                                         \
+    X(float, radius)                                                                               \
+    X(int, material_front) X(int, material_back) /* -1: absorbs */                                 \
+    X(int, light)                                /* row of the light table, -1: does not emit */    \
+    X(int, shape) X(int, index_in_shape)                                                           \
+    X(int, flags)                                /* geometry kind | PRIMITIVE_* */
+typedef struct { PRIMITIVE_FIELDS(FIELD_DECLARE) } PrimitiveRecord;
 LAYOUT(PrimitiveRecord, 64);
 
 #define PRIMITIVE_KIND_MASK 3
-#define PRIMITIVE_FLIPPED 4 // the normal is reversed (sphere, disk)
-#define PRIMITIVE_NORMALS 8 // the vertex record holds normals
-#define PRIMITIVE_UVS 16    // the vertex record holds texture coordinates
+#define PRIMITIVE_FLIPPED 4  // the normal is reversed (sphere, disk)
+#define PRIMITIVE_NORMALS 8  // the vertex record holds normals
+#define PRIMITIVE_UVS 16     // the vertex record holds texture coordinates
 
 // Vertex attributes of a triangle: normals and texture coordinates of its three corners.
 #define VERTEX_FIELDS(X)                                                                           \
-    X(float, n0x)                                                                                  \
-    X(float, n0y) X(float, n0z) X(float, n1x) X(float, n1y) X(float, n1z) X(float, n2x)            \
-        X(float, n2y) X(float, n2z) X(float, u0) X(float, v0) X(float, u1) X(float, v1)            \
-            X(float, u2) X(float, v2) X(float, unused)
-typedef struct {
-    VERTEX_FIELDS(FIELD_DECLARE)
-} VertexRecord;
+    X(float, n0x) X(float, n0y) X(float, n0z)                                                      \
+    X(float, n1x) X(float, n1y) X(float, n1z)                                                      \
+    X(float, n2x) X(float, n2y) X(float, n2z)                                                      \
+    X(float, u0) X(float, v0) X(float, u1) X(float, v1) X(float, u2) X(float, v2)                  \
+    X(float, unused)
+typedef struct { VERTEX_FIELDS(FIELD_DECLARE) } VertexRecord;
 LAYOUT(VertexRecord, 64);
 
-// -------------------------------------------------------------------------------------- materials
-// and lights Dielectrics keep their index in (er, eg, eb, kr, kg, kb): eta, 1/eta, and the high and
-// low parts of eta^2 - 1 seen from the outside and from the inside (the low parts decide on which
-// side of the critical angle a direction lies).
+// -------------------------------------------------------------------------------------- materials and lights
+// Dielectrics keep their index in (er, eg, eb, kr, kg, kb): eta, 1/eta, and the high and low parts of eta^2 - 1 seen
+// from the outside and from the inside (the low parts decide on which side of the critical angle a direction lies).
 #define MATERIAL_FIELDS(X)                                                                         \
     X(int, kind)                                                                                   \
-    X(float, r)                                                                                    \
-    X(float, g) X(float, b)                                      /* (specular) reflectance */      \
-        X(float, tr) X(float, tg) X(float, tb)                   /* specular transmittance */      \
-        X(float, er) X(float, eg) X(float, eb)                   /* conductor eta */               \
-        X(float, kr) X(float, kg) X(float, kb)                   /* conductor k */                 \
-        X(float, alpha_u) X(float, alpha_v) X(int, distribution) /* 0 GGX, 1 Beckmann */
-typedef struct {
-    MATERIAL_FIELDS(FIELD_DECLARE)
-} MaterialRecord;
+    X(float, r) X(float, g) X(float, b)       /* (specular) reflectance */                         \
+    X(float, tr) X(float, tg) X(float, tb)    /* specular transmittance */                         \
+    X(float, er) X(float, eg) X(float, eb)    /* conductor eta */                                  \
+    X(float, kr) X(float, kg) X(float, kb)    /* conductor k */                                    \
+    X(float, alpha_u) X(float, alpha_v)                                                            \
+    X(int, distribution)                      /* 0 GGX, 1 Beckmann */
+typedef struct { MATERIAL_FIELDS(FIELD_DECLARE) } MaterialRecord;
 LAYOUT(MaterialRecord, 64);
 
-// a, b, c as the emitter's own header says; pmf: probability of picking this row; density: pmf /
-// area (1/m^2).
+// a, b, c as the emitter's own header says; pmf: probability of picking this row; density: pmf / area (1/m^2).
 #define LIGHT_FIELDS(X)                                                                            \
     X(int, kind)                                                                                   \
-    X(float, ax)                                                                                   \
-    X(float, ay) X(float, az) X(float, bx) X(float, by) X(float, bz) X(float, cx) X(float, cy)     \
-        X(float, cz) X(float, r) X(float, g) X(float, b) X(float, pmf) X(float, density)           \
-            X(float, extra)
-typedef struct {
-    LIGHT_FIELDS(FIELD_DECLARE)
-} LightRecord;
+    X(float, ax) X(float, ay) X(float, az)                                                         \
+    X(float, bx) X(float, by) X(float, bz)                                                         \
+    X(float, cx) X(float, cy) X(float, cz)                                                         \
+    X(float, r) X(float, g) X(float, b)                                                            \
+    X(float, pmf) X(float, density) X(float, extra)
+typedef struct { LIGHT_FIELDS(FIELD_DECLARE) } LightRecord;
 LAYOUT(LightRecord, 64);
 
-// Alias table entry (Vose 1991): keep the row drawn if the second number is below threshold, else
-// take `alias`.
+// Alias table entry (Vose 1991): keep the row drawn if the second number is below threshold, else take `alias`.
 typedef struct {
     unsigned int threshold; // in units of 2^-32; 2^32 - 1 keeps always
     int alias;
 } LightAlias;
 LAYOUT(LightAlias, 8);
 
-// One of equally likely bins of a reconstruction filter along one axis: it starts at x (pixels from
-// the centre), ends where the next one starts, and its samples have this weight (negative in a
-// negative lobe).
+// One of equally likely bins of a reconstruction filter along one axis: it starts at x (pixels from the centre), ends where the
+// next one starts, and its samples have this weight (negative in a negative lobe).
 typedef struct {
     float x, weight;
 } FilterBin;
 LAYOUT(FilterBin, 8);
 
-// ------------------------------------------------------------------------------------------------------
-// BVH
+// ------------------------------------------------------------------------------------------------------ BVH
 #define BVH_WIDTH 16
 
-// Children's boxes as rows of 16: low x, high x, low y, high y, low z, high z. An absent child's
-// box is empty (low = +inf, high = -inf). child >= 0: a node; child < 0: ~((leaf << 2) | geometry
-// kind).
+// Children's boxes as rows of 16: low x, high x, low y, high y, low z, high z. An absent child's box is empty
+// (low = +inf, high = -inf). child >= 0: a node; child < 0: ~((leaf << 2) | geometry kind).
 typedef struct {
     float bounds[6][BVH_WIDTH];
     int child[BVH_WIDTH];
 } BvhNode;
 LAYOUT(BvhNode, 448);
 
-// Up to 16 primitives of one kind, rows ax ay az bx by bz cx cy cz. Absent ones are all zero (a
-// triangle of no area) with primitive -1. A sphere has its radius in row bx.
+// Up to 16 primitives of one kind, rows ax ay az bx by bz cx cy cz. Absent ones are all zero (a triangle of no area) with
+// primitive -1. A sphere has its radius in row bx.
 typedef struct {
     float rows[9][BVH_WIDTH];
     int primitive[BVH_WIDTH];
 } BvhLeaf;
 LAYOUT(BvhLeaf, 640);
 
-// ---------------------------------------------------------------------------------------------------
-// camera A ray through the pixel position (x, y), in pixels from the top left corner of the full
-// film: direction = corner + x * step_x + y * step_y, whose length along the optical axis is 1.
+// --------------------------------------------------------------------------------------------------- camera
+// A ray through the pixel position (x, y), in pixels from the top left corner of the full film:
+// direction = corner + x * step_x + y * step_y, whose length along the optical axis is 1.
 #define CAMERA_FIELDS(X)                                                                           \
-    X(float, ox)                                                                                   \
-    X(float, oy) X(float, oz)                  /* origin */                                        \
-        X(float, dx) X(float, dy) X(float, dz) /* corner direction */                              \
-        X(float, ux) X(float, uy) X(float, uz) /* step_x */                                        \
-        X(float, vx) X(float, vy) X(float, vz) /* step_y */                                        \
-        X(float, lx) X(float, ly) X(float, lz) /* lens axis x, aperture radius long */             \
-        X(float, mx) X(float, my) X(float, mz) /* lens axis y, aperture radius long */             \
-        X(float, near_clip) X(float, far_clip) X(float, focus_distance)
-typedef struct {
-    CAMERA_FIELDS(FIELD_DECLARE)
-} CameraRecord;
+    X(float, ox) X(float, oy) X(float, oz)    /* origin */                                         \
+    X(float, dx) X(float, dy) X(float, dz)    /* corner direction */                               \
+    X(float, ux) X(float, uy) X(float, uz)    /* step_x */                                         \
+    X(float, vx) X(float, vy) X(float, vz)    /* step_y */                                         \
+    X(float, lx) X(float, ly) X(float, lz)    /* lens axis x, aperture radius long */              \
+    X(float, mx) X(float, my) X(float, mz)    /* lens axis y, aperture radius long */              \
+    X(float, near_clip) X(float, far_clip) X(float, focus_distance)
+typedef struct { CAMERA_FIELDS(FIELD_DECLARE) } CameraRecord;
 LAYOUT(CameraRecord, 84);
 
 #define AOV_LIMIT 8
 
 // What all kernels of a render are told.
 #define RENDER_FIELDS(X)                                                                           \
-    X(int, film_width) /* full film, pixels: the stride of pixel numbers */                        \
+    X(int, film_width)                        /* full film, pixels: the stride of pixel numbers */ \
     X(int, film_height)                                                                            \
-    X(int, sample_border) /* 1: samples beyond the edge of the film count */                       \
-    X(int, crop_x)                                                                                 \
-    X(int, crop_y) X(int, crop_width) X(int, crop_height)                                          \
-        X(int, blocks_x)               /* 4x4 pixel blocks in a row of the crop */                 \
-        X(int, seed) X(int, max_depth) /* edges from the camera; INT_MAX without limit */          \
-        X(int, rr_depth) X(int, light_count)                                                       \
-            X(int, constant_light) /* row of the constant environment, -1: none */                 \
-        X(int, sky_covers)         /* 1: the sky counts for alpha */                               \
-        X(int, filter_bins)        /* 0: box */                                                    \
-        X(int, path_capacity)      /* path slots in the pool */                                    \
-        X(int, state_stride)       /* floats between two fields of the path state */               \
-        X(int, segment_size)       /* path slots owned by one work-item */                         \
-        X(int, segment_stride)     /* their entries in the path state, with padding */             \
-        X(int, film_pixels)        /* pixels in the film, whole blocks */                          \
-        X(int, aov_channels) X(int, camera_root)                                                   \
-            X(int, root) /* BVH roots for camera rays and for all others */
+    X(int, sample_border)                     /* 1: samples beyond the edge of the film count */    \
+    X(int, crop_x) X(int, crop_y) X(int, crop_width) X(int, crop_height)                           \
+    X(int, blocks_x)                          /* 4x4 pixel blocks in a row of the crop */           \
+    X(int, seed)                                                                                   \
+    X(int, max_depth)                         /* edges from the camera; INT_MAX without limit */    \
+    X(int, rr_depth)                                                                               \
+    X(int, light_count)                                                                            \
+    X(int, constant_light)                    /* row of the constant environment, -1: none */       \
+    X(int, sky_covers)                        /* 1: the sky counts for alpha */                     \
+    X(int, filter_bins)                       /* 0: box */                                          \
+    X(int, path_capacity)                     /* path slots in the pool */                          \
+    X(int, state_stride)                      /* floats between two fields of the path state */     \
+    X(int, segment_size)                      /* path slots owned by one work-item */               \
+    X(int, segment_stride)                    /* their entries in the path state, with padding */   \
+    X(int, film_pixels)                       /* pixels in the film, whole blocks */                \
+    X(int, aov_channels)                                                                           \
+    X(int, camera_root) X(int, root)          /* BVH roots for camera rays and for all others */
 typedef struct {
     CameraRecord camera;
     RENDER_FIELDS(FIELD_DECLARE)
@@ -161,9 +152,8 @@ typedef struct {
 } RenderParams;
 LAYOUT(RenderParams, 84 + 23 * 4 + AOV_LIMIT * 4);
 
-// A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block,
-// first_block + block_count). Slot p of the pool is lane p % 16 of sample (p / 16) % sample_count
-// of block p / (16 * sample_count).
+// A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
+// Slot p of the pool is lane p % 16 of sample (p / 16) % sample_count of block p / (16 * sample_count).
 typedef struct {
     int first_block, block_count;
     int first_sample, sample_count;

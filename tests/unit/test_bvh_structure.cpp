@@ -129,7 +129,7 @@ private:
     Survey survey_;
 };
 
-Survey check_tree(const Primitives& primitives, int stack_limit = BVH_STACK_LIMIT) {
+Survey check_tree(const Primitives& primitives, int stack_limit = bvh_stack_limit) {
     Bvh bvh;
     BvhStatistics statistics;
     int root = bvh_append(bvh, primitives, &statistics, stack_limit);
@@ -239,7 +239,7 @@ TEST_CASE("The stack the kernels have suffices for every tree", "[bvh]") {
             return f.path == "device/traverse.h";
         });
         REQUIRE(traverse != files.end());
-        std::string definition = "#define STACK_SIZE " + std::to_string(BVH_STACK_LIMIT) + "\n";
+        std::string definition = "#define STACK_SIZE " + std::to_string(bvh_stack_limit) + "\n";
         CHECK(traverse->text.find(definition) != std::string_view::npos);
     }
     SECTION("geometric series") {

@@ -35,10 +35,7 @@ struct ReadyRay {
     explicit ReadyRay(const Ray& r) : ray(r) {
         Vector size;
         for (int a = 0; a < 3; a++) {
-            float reciprocal = 1.f / r.direction[a];
-            inverse[a] = std::isinf(reciprocal)
-                             ? std::copysign(std::numeric_limits<float>::max(), r.direction[a])
-                             : reciprocal;
+            inverse[a] = 1.f / r.direction[a];
             size[a] = std::fabs(r.direction[a]);
         }
         int z = size[0] > size[1] ? (size[0] > size[2] ? 0 : 2) : (size[1] > size[2] ? 1 : 2);

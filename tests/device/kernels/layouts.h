@@ -1,6 +1,8 @@
 // Every struct that crosses the bus and every field of it, as a list for both languages:
 // LAYOUT_TYPE(type) and LAYOUT_FIELD(type, field) are the including file's.
 
+// The list below is a table.
+// clang-format off
 #define PRIMITIVE_LAYOUT(type, name) LAYOUT_FIELD(PrimitiveRecord, name)
 #define VERTEX_LAYOUT(type, name) LAYOUT_FIELD(VertexRecord, name)
 #define MATERIAL_LAYOUT(type, name) LAYOUT_FIELD(MaterialRecord, name)
@@ -10,19 +12,19 @@
 
 #define LAYOUTS                                                                                    \
     LAYOUT_TYPE(PrimitiveRecord)                                                                   \
-    PRIMITIVE_FIELDS(PRIMITIVE_LAYOUT) LAYOUT_TYPE(VertexRecord) VERTEX_FIELDS(VERTEX_LAYOUT)      \
-        LAYOUT_TYPE(MaterialRecord) MATERIAL_FIELDS(MATERIAL_LAYOUT) LAYOUT_TYPE(LightRecord)      \
-            LIGHT_FIELDS(LIGHT_LAYOUT) LAYOUT_TYPE(LightAlias) LAYOUT_FIELD(LightAlias, threshold) \
-                LAYOUT_FIELD(LightAlias, alias) LAYOUT_TYPE(FilterBin) LAYOUT_FIELD(FilterBin, x)  \
-                    LAYOUT_FIELD(FilterBin, weight) LAYOUT_TYPE(BvhNode) LAYOUT_FIELD(             \
-                        BvhNode, bounds) LAYOUT_FIELD(BvhNode, child) LAYOUT_TYPE(BvhLeaf)         \
-                        LAYOUT_FIELD(BvhLeaf, rows) LAYOUT_FIELD(BvhLeaf, primitive)               \
-                            LAYOUT_TYPE(CameraRecord) CAMERA_FIELDS(CAMERA_LAYOUT)                 \
-                                LAYOUT_TYPE(RenderParams) LAYOUT_FIELD(RenderParams, camera)       \
-                                    RENDER_FIELDS(RENDER_LAYOUT)                                   \
-                                        LAYOUT_FIELD(RenderParams, aov_offset)                     \
-                                            LAYOUT_TYPE(WaveParams)                                \
-                                                LAYOUT_FIELD(WaveParams, first_block)              \
-                                                    LAYOUT_FIELD(WaveParams, block_count)          \
-                                                        LAYOUT_FIELD(WaveParams, first_sample)     \
-                                                            LAYOUT_FIELD(WaveParams, sample_count)
+    PRIMITIVE_FIELDS(PRIMITIVE_LAYOUT)                                                             \
+    LAYOUT_TYPE(VertexRecord)                                                                      \
+    VERTEX_FIELDS(VERTEX_LAYOUT) LAYOUT_TYPE(MaterialRecord) MATERIAL_FIELDS(MATERIAL_LAYOUT)      \
+        LAYOUT_TYPE(LightRecord) LIGHT_FIELDS(LIGHT_LAYOUT) LAYOUT_TYPE(LightAlias) LAYOUT_FIELD(  \
+            LightAlias, threshold) LAYOUT_FIELD(LightAlias, alias) LAYOUT_TYPE(FilterBin)          \
+            LAYOUT_FIELD(FilterBin, x) LAYOUT_FIELD(FilterBin, weight) LAYOUT_TYPE(BvhNode)        \
+                LAYOUT_FIELD(BvhNode, bounds) LAYOUT_FIELD(BvhNode, child) LAYOUT_TYPE(BvhLeaf)    \
+                    LAYOUT_FIELD(BvhLeaf, rows) LAYOUT_FIELD(BvhLeaf, primitive)                   \
+                        LAYOUT_TYPE(CameraRecord) CAMERA_FIELDS(CAMERA_LAYOUT)                     \
+                            LAYOUT_TYPE(RenderParams) LAYOUT_FIELD(RenderParams, camera)           \
+                                RENDER_FIELDS(RENDER_LAYOUT)                                       \
+                                    LAYOUT_FIELD(RenderParams, aov_offset) LAYOUT_TYPE(WaveParams) \
+                                        LAYOUT_FIELD(WaveParams, first_block)                      \
+                                            LAYOUT_FIELD(WaveParams, block_count)                  \
+                                                LAYOUT_FIELD(WaveParams, first_sample)             \
+                                                    LAYOUT_FIELD(WaveParams, sample_count)

@@ -88,18 +88,20 @@ FN ProbeOut probe_russian_roulette(ProbeIn i) {
     return out2(v2(mask_word(r.alive), r.scale));
 }
 
+// The lists below are tables.
+// clang-format off
 #define PROBES                                                                                     \
     PROBE(cross3, "rrrrrr", 3)                                                                     \
-    PROBE(vectors, "rrrrrr", 11) PROBE(neighbours, "f", 2) PROBE(sincos_turns, "u", 2)             \
-        PROBE(exp_negative, "s", 1) PROBE(atan2, "ff", 1) PROBE(acos, "c", 2)                      \
-            PROBE(random4, "bbbb", 14) PROBE(disk_uniform, "uu", 2)                                \
-                PROBE(hemisphere_cosine, "uu", 3) PROBE(sphere_uniform, "uu", 3)                   \
-                    PROBE(triangle_uniform, "uu", 2) PROBE(frame, "dp", 15)                        \
-                        PROBE(frame_from_tangent, "dp", 9) PROBE(reflect, "dd", 6)                 \
-                            PROBE(refract_local, "di", 3) PROBE(refract_about, "ddi", 3)           \
-                                PROBE(fresnel_dielectric, "ci", 3)                                 \
-                                    PROBE(fresnel_conductor, "css", 1) PROBE(ggx, "daa", 3)        \
-                                        PROBE(beckmann, "daa", 2)                                  \
-                                            PROBE(ggx_sample_visible, "daauu", 3)                  \
-                                                PROBE(power_heuristic, "rr", 1)                    \
-                                                    PROBE(russian_roulette, "rrrcu", 2)
+    PROBE(vectors, "rrrrrr", 11)                                                                   \
+    PROBE(neighbours, "f", 2)                                                                      \
+    PROBE(sincos_turns, "u", 2)                                                                    \
+    PROBE(exp_negative, "s", 1) PROBE(atan2, "ff", 1) PROBE(acos, "c", 2)                          \
+        PROBE(random4, "bbbb", 14) PROBE(disk_uniform, "uu", 2) PROBE(hemisphere_cosine, "uu", 3)  \
+            PROBE(sphere_uniform, "uu", 3) PROBE(triangle_uniform, "uu", 2) PROBE(frame, "dp", 15) \
+                PROBE(frame_from_tangent, "dp", 9) PROBE(reflect, "dd", 6)                         \
+                    PROBE(refract_local, "di", 3) PROBE(refract_about, "ddi", 3)                   \
+                        PROBE(fresnel_dielectric, "ci", 3) PROBE(fresnel_conductor, "css", 1)      \
+                            PROBE(ggx, "daa", 3) PROBE(beckmann, "daa", 2)                         \
+                                PROBE(ggx_sample_visible, "daauu", 3)                              \
+                                    PROBE(power_heuristic, "rr", 1)                                \
+                                        PROBE(russian_roulette, "rrrcu", 2)

@@ -65,10 +65,14 @@ FN ProbeOut probe_camera_ray(ProbeIn i) {
     return put1(put3(out3(r.origin), 3, r.direction), 6, r.t_max);
 }
 
+// The lists below are tables.
+// clang-format off
 #define PROBES                                                                                     \
     PROBE(intersect_triangle, "pppcccr", 4)                                                        \
-    PROBE(intersect_triangle_through_corners, "pppu", 4) PROBE(intersect_sphere, "pps", 4)         \
-        PROBE(intersect_disk, "pppp", 4) PROBE(box_overlap, "rrrrrrr", 1)                          \
-            PROBE(leave_surface, "ppdd", 3) PROBE(surface_triangle, "guu", 23)                     \
-                PROBE(surface_vertex_attributes, "gvuu", 23) PROBE(surface_sphere, "gp", 23)       \
-                    PROBE(surface_disk, "guu", 23) PROBE(camera_ray, "kuuuu", 7)
+    PROBE(intersect_triangle_through_corners, "pppu", 4)                                           \
+    PROBE(intersect_sphere, "pps", 4)                                                              \
+    PROBE(intersect_disk, "pppp", 4)                                                               \
+    PROBE(box_overlap, "rrrrrrr", 1) PROBE(leave_surface, "ppdd", 3)                               \
+        PROBE(surface_triangle, "guu", 23) PROBE(surface_vertex_attributes, "gvuu", 23)            \
+            PROBE(surface_sphere, "gp", 23) PROBE(surface_disk, "guu", 23)                         \
+                PROBE(camera_ray, "kuuuu", 7)
