@@ -6,7 +6,6 @@
 #include "host/commands/version.h"
 #include "host/error.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -21,32 +20,23 @@ int fail(ExitCode code, const char* what) {
     return static_cast<int>(code);
 }
 
-int run(int argc, char** argv) {
-    CLI::App app{"Parhelion: a physically based renderer for the command line, on OpenCL"};
-    app.require_subcommand(1);
-    app.set_version_flag("--version", version_text);
-    app.footer("Exit codes: 0 done, 1 images differ (compare), 2 unusable input, 3 device failure, "
-               "4 internal failure.\n"
-               "Each subcommand has its own --help with examples.");
-    int exit_code = 0;
-    add_render_command(app);
-    add_compare_command(app, exit_code);
-    add_info_command(app);
-    add_devices_command(app, exit_code);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return app.exit(e);
-        return fail(ExitCode::bad_input, e.what());
-    }
-    return exit_code;
+CommandLine command_line() {
+    return {
+        .summary = "Parhelion: a physically based renderer for the command line, on OpenCL",
+        .footer = "Exit codes: 0 done, 1 images differ (compare), 2 unusable input, 3 device "
+                  "failure, 4 internal failure.\n"
+                  "Each subcommand has its own --help with examples.",
+        .version = version_text(),
+        .subcommands = {render_subcommand(), compare_subcommand(), info_subcommand(),
+                        devices_subcommand()},
+    };
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
     try {
-        return run(argc, argv);
+        return run_command_line(command_line(), {argv + 1, argv + argc});
     } catch (const InputError& e) {
         return fail(ExitCode::bad_input, e.what());
     } catch (const DeviceError& e) {

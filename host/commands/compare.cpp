@@ -5,7 +5,6 @@
 #include "host/error.h"
 #include "host/image/exr.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -89,33 +88,37 @@ void check_options(const CompareOptions& options) {
     check(not_negative(options.test.variance_floor), "--variance-floor", "a number, 0 or more");
 }
 
-void add_z_test_options(CLI::App& command, CompareOptions& options) {
-    CLI::Option* variance = command.add_option(
-        "--variance", options.variance,
-        "EXR with the variance of one sample of each pixel: z-tests of the pixels and the mean");
-    CLI::Option* samples =
-        command.add_option("--spp", options.test.samples, "Samples per pixel of A");
-    variance->needs(samples);
-    samples->needs(variance);
-    command
-        .add_option("--reference-spp", options.test.reference_samples,
-                    "Samples per pixel of B (default: B is exact)")
-        ->needs(variance);
-    command
-        .add_option("--alpha", options.test.alpha,
-                    "Chance to fail an image that is right, for each of the two z-tests")
-        ->needs(variance)
-        ->capture_default_str();
-    command
-        .add_option("--variance-floor", options.test.variance_floor,
-                    "Least variance in the z-test of the pixels")
-        ->needs(variance)
-        ->capture_default_str();
-    command
-        .add_flag("--xyz-statistics", options.xyz_statistics,
-                  "B and the variance hold XYZ statistics as RGB (Mitsuba's test references): "
-                  "test in XYZ")
-        ->needs(variance);
+std::vector<Option> limit_options(CompareOptions& c) {
+    std::vector<Option> options;
+    for (const LimitKind& kind : limit_kinds)
+        options.push_back({std::string("--") + kind.name, &(c.*kind.limit), kind.help});
+    return options;
+}
+
+std::vector<Option> z_test_options(CompareOptions& c) {
+    return {
+        {"--variance",
+         &c.variance,
+         "EXR with the variance of one sample of each pixel: z-tests of the pixels and the mean",
+         {.needs = {"--spp"}}},
+        {"--spp", &c.test.samples, "Samples per pixel of A", {.needs = {"--variance"}}},
+        {"--reference-spp",
+         &c.test.reference_samples,
+         "Samples per pixel of B (default: B is exact)",
+         {.needs = {"--variance"}}},
+        {"--alpha",
+         &c.test.alpha,
+         "Chance to fail an image that is right, for each of the two z-tests",
+         {.needs = {"--variance"}}},
+        {"--variance-floor",
+         &c.test.variance_floor,
+         "Least variance in the z-test of the pixels",
+         {.needs = {"--variance"}}},
+        {"--xyz-statistics",
+         &c.xyz_statistics,
+         "B and the variance hold XYZ statistics as RGB (Mitsuba's test references): test in XYZ",
+         {.needs = {"--variance"}}},
+    };
 }
 
 } // namespace
@@ -143,26 +146,30 @@ int run_compare(const CompareOptions& options, std::ostream& out) {
     return static_cast<int>(pass ? ExitCode::ok : ExitCode::different);
 }
 
-void add_compare_command(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand(
-        "compare", "Compare two EXR images; exit code 0 within the limits given (or none given), "
-                   "1 not, 2 unusable input");
-    const auto options = std::make_shared<CompareOptions>();
-    command->add_option("A", options->image, "Image (.exr)")->required();
-    command->add_option("B", options->reference, "Reference (.exr)")->required();
-    command->add_flag("--json", options->json, "Report as one JSON object");
-    command->add_option("--layer", options->figures.layer,
-                        "Compare the channels NAME.* instead of the main layer");
-    command
-        ->add_option("--epsilon", options->figures.epsilon,
-                     "relMSE is the mean of (A - B)^2 / (B^2 + epsilon)")
-        ->capture_default_str();
-    command->add_option("--ppd", options->figures.pixels_per_degree, "FLIP's pixels per degree")
-        ->capture_default_str();
-    for (const LimitKind& kind : limit_kinds)
-        command->add_option(std::string("--") + kind.name, (*options).*kind.limit, kind.help);
-    add_z_test_options(*command, *options);
-    command->callback([options, &exit_code] { exit_code = run_compare(*options, std::cout); });
+Subcommand compare_subcommand() {
+    const auto c = std::make_shared<CompareOptions>();
+    Subcommand compare{
+        .name = "compare",
+        .summary = "Compare two EXR images; exit code 0 within the limits given (or none given), "
+                   "1 not, 2 unusable input",
+        .examples =
+            "Examples:\n"
+            "  parhelion compare image.exr reference.exr\n"
+            "  parhelion compare image.exr reference.exr --relmse 1e-3 --bias 0.005 --json\n"
+            "  parhelion compare image.exr reference.exr --variance variance.exr --spp 64",
+        .options = {{"A", &c->image, "Image (.exr)", {.required = true}},
+                    {"B", &c->reference, "Reference (.exr)", {.required = true}},
+                    {"--json", &c->json, "Report as one JSON object"},
+                    {"--layer", &c->figures.layer,
+                     "Compare the channels NAME.* instead of the main layer"},
+                    {"--epsilon", &c->figures.epsilon,
+                     "relMSE is the mean of (A - B)^2 / (B^2 + epsilon)"},
+                    {"--ppd", &c->figures.pixels_per_degree, "FLIP's pixels per degree"}},
+        .run = [c] { return run_compare(*c, std::cout); },
+    };
+    for (const std::vector<Option>& more : {limit_options(*c), z_test_options(*c)})
+        compare.options.insert(compare.options.end(), more.begin(), more.end());
+    return compare;
 }
 
 } // namespace parhelion

@@ -1,15 +1,12 @@
 // `parhelion compare`: two images, their differences, and whether those are within limits.
 #pragma once
 
+#include "host/commands/command_line.h"
 #include "host/image/comparison.h"
 
 #include <iosfwd>
 #include <optional>
 #include <string>
-
-namespace CLI { // NOLINT(readability-identifier-naming): the library's name
-class App;
-}
 
 namespace parhelion {
 
@@ -31,8 +28,7 @@ struct CompareOptions {
 /// for files that cannot be compared; nothing has been printed then.
 int run_compare(const CompareOptions& options, std::ostream& out);
 
-/// Registers the subcommand; its callback prints to standard output and sets `exit_code`.
-/// InputError passes through CLI::App::parse to the caller.
-void add_compare_command(CLI::App& app, int& exit_code);
+/// Its run prints to standard output.
+Subcommand compare_subcommand();
 
 } // namespace parhelion

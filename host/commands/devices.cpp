@@ -4,7 +4,6 @@
 #include "host/cl/self_test.h"
 #include "host/error.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -74,12 +73,15 @@ int run_devices(bool json) {
 
 } // namespace
 
-void add_devices_command(CLI::App& app, int& exit_code) {
-    CLI::App* sub = app.add_subcommand("devices", "List OpenCL devices and test each");
+Subcommand devices_subcommand() {
     auto json = std::make_shared<bool>(false);
-    sub->add_flag("--json", *json, "One JSON object");
-    sub->footer("Example:\n  parhelion devices --json | jq '.devices[].name'");
-    sub->callback([json, &exit_code] { exit_code = run_devices(*json); });
+    return {
+        .name = "devices",
+        .summary = "List OpenCL devices and test each",
+        .examples = "Example:\n  parhelion devices --json | jq '.devices[].name'",
+        .options = {{"--json", json.get(), "One JSON object"}},
+        .run = [json] { return run_devices(*json); },
+    };
 }
 
 } // namespace parhelion

@@ -1,14 +1,11 @@
 // `parhelion devices`: what there is to render on, and whether it works.
 #pragma once
 
-namespace CLI { // NOLINT(readability-identifier-naming): the library's name
-class App;
-}
+#include "host/commands/command_line.h"
 
 namespace parhelion {
 
-/// Registers the subcommand; `exit_code` becomes device_failure where no device passes its
-/// self-test.
-void add_devices_command(CLI::App& app, int& exit_code);
+/// Its exit code is device_failure where no device passes its self-test.
+Subcommand devices_subcommand();
 
 } // namespace parhelion

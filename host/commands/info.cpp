@@ -2,10 +2,10 @@
 #include "host/commands/info.h"
 
 #include "host/commands/render.h"
+#include "host/error.h"
 #include "host/render/device_scene.h"
 #include "host/scene/load.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -91,7 +91,7 @@ void print_text(const nlohmann::json& info) {
         fmt::print("  note       {}\n", note.get<std::string>());
 }
 
-void run_info(const InfoCommand& command) {
+int run_info(const InfoCommand& command) {
     Scene scene = load_scene(command.scene_file,
                              {parse_definitions(command.definitions), command.allow_outside});
     nlohmann::json info = describe(scene, make_device_scene(scene));
@@ -99,24 +99,26 @@ void run_info(const InfoCommand& command) {
         fmt::print("{}\n", info.dump(2));
     else
         print_text(info);
+    return static_cast<int>(ExitCode::ok);
 }
 
 } // namespace
 
-void add_info_command(CLI::App& app) {
-    CLI::App* sub =
-        app.add_subcommand("info", "Say what is in a scene and what its kernels will have");
-    auto command = std::make_shared<InfoCommand>();
-    sub->add_option("scene", command->scene_file, "Scene file (Mitsuba 3 XML)")->required();
-    sub->add_option("-D,--define", command->definitions,
-                    "name=value for the scene's $name (repeat for more)")
-        ->allow_extra_args(false);
-    sub->add_flag("--allow-outside", command->allow_outside,
-                  "Let the scene name files outside its own folder");
-    sub->add_flag("--json", command->json, "One JSON object");
-    sub->footer(
-        "Example:\n  parhelion info scenes/cornell-box/scene.xml --json | jq .kernel_features");
-    sub->callback([command] { run_info(*command); });
+Subcommand info_subcommand() {
+    auto c = std::make_shared<InfoCommand>();
+    return {
+        .name = "info",
+        .summary = "Say what is in a scene and what its kernels will have",
+        .examples =
+            "Example:\n  parhelion info scenes/cornell-box/scene.xml --json | jq .kernel_features",
+        .options = {{"scene", &c->scene_file, "Scene file (Mitsuba 3 XML)", {.required = true}},
+                    {"-D,--define", &c->definitions,
+                     "name=value for the scene's $name (repeat for more)"},
+                    {"--allow-outside", &c->allow_outside,
+                     "Let the scene name files outside its own folder"},
+                    {"--json", &c->json, "One JSON object"}},
+        .run = [c] { return run_info(*c); },
+    };
 }
 
 } // namespace parhelion

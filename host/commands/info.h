@@ -1,13 +1,11 @@
 // `parhelion info`: what is in a scene, and what its kernels will have.
 #pragma once
 
-namespace CLI { // NOLINT(readability-identifier-naming): the library's name
-class App;
-}
+#include "host/commands/command_line.h"
 
 namespace parhelion {
 
-/// Registers the subcommand; InputError passes through CLI::App::parse to the caller.
-void add_info_command(CLI::App& app);
+/// Its run throws InputError for a scene that cannot be used.
+Subcommand info_subcommand();
 
 } // namespace parhelion

@@ -1,6 +1,7 @@
 // `parhelion render`: a scene file to an image file.
 #include "host/commands/render.h"
 
+#include "host/error.h"
 #include "host/image/exr.h"
 #include "host/image/output.h"
 #include "host/image/png.h"
@@ -8,7 +9,6 @@
 #include "host/scene/load.h"
 #include "parhelion_version.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
@@ -83,9 +83,52 @@ void limit_threads(int threads) {
     if (threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
 }
 
+std::vector<Option> image_options(RenderCommand& c) {
+    return {
+        {"scene", &c.scene_file, "Scene file (Mitsuba 3 XML)", {.required = true}},
+        {"-o,--output", &c.output, "Image to write, .exr or .png"},
+        {"--spp", &c.samples, "Samples per pixel"},
+        {"--integrator", &c.integrator, "path, direct, normals, depth or aov"},
+        {"--max-depth", &c.max_depth,
+         "Longest path in edges: 1 emitters only, 2 direct light, -1 no limit"},
+        {"--rr-depth", &c.rr_depth, "Russian roulette from this many vertices on"},
+        {"--size", &c.size, "Film size, WIDTHxHEIGHT"},
+        {"--crop", &c.crop, "Part of the film, X,Y,WIDTH,HEIGHT"},
+        {"!--no-next-event", &c.next_event, "Do not sample emitters"},
+        {"--seed", &c.seed, "Seed of the random numbers"},
+        {"--aov",
+         &c.aovs,
+         "Layers beside the image, e.g. albedo,normals,depth",
+         {.delimiter = ','}},
+        {"-D,--define", &c.definitions, "name=value for the scene's $name (repeat for more)"},
+        {"--device", &c.device, "Device by index or part of its name (see `parhelion devices`)"},
+        {"--exposure", &c.exposure, "Stops of exposure for .png"},
+        {"--stats", &c.stats_file, "Write times, counts and memory as JSON"},
+        {"--force", &c.force, "Overwrite the image if it exists"},
+        {"-q,--quiet", &c.quiet, "No progress"},
+        {"--allow-outside", &c.allow_outside, "Let the scene name files outside its own folder"},
+        {"--threads", &c.threads, "CPU threads, 0 for all"},
+    };
+}
+
+std::vector<Option> split_options(RenderCommand& c) {
+    std::vector<Option> options{
+        {"--pool-paths", &c.options.split.pool_paths, "Paths in flight"},
+        {"--segment-paths", &c.options.split.segment_paths, "Paths a work-item owns"},
+        {"--work-group-size", &c.options.split.work_group_size, "Work-items in a group"},
+        {"--lanes", &c.options.lanes,
+         "Values a kernel handles at once: 1, 8, 16; 0 for the device's"},
+        {"--portable", &c.options.portable, "Kernels without x86 intrinsics"},
+        {"--all-features", &c.options.all_features, "Kernels not specialised to the scene"},
+    };
+    for (Option& option : options)
+        option.rules.group = "How work is split (the image stays the same to the bit)";
+    return options;
+}
+
 } // namespace
 
-void run_render(const RenderCommand& command) {
+int run_render(const RenderCommand& command) {
     check_output(command.output, command.force);
     check_command(command);
     limit_threads(command.threads);
@@ -120,67 +163,27 @@ void run_render(const RenderCommand& command) {
     result.report.host_peak_bytes = peak_host_bytes();
     if (!command.stats_file.empty()) write_stats(command.stats_file, result.report);
     progress.note("wrote " + command.output);
+    return static_cast<int>(ExitCode::ok);
 }
 
-void add_render_command(CLI::App& app) {
-    CLI::App* sub =
-        app.add_subcommand("render", "Render a scene to an .exr (linear) or .png (preview) file");
-    auto command = std::make_shared<RenderCommand>();
-    command->output = "out.exr";
-    sub->add_option("scene", command->scene_file, "Scene file (Mitsuba 3 XML)")->required();
-    sub->add_option("-o,--output", command->output, "Image to write, .exr or .png")
-        ->capture_default_str();
-    sub->add_option("--spp", command->samples, "Samples per pixel");
-    sub->add_option("--integrator", command->integrator, "path, direct, normals, depth or aov");
-    sub->add_option("--max-depth", command->max_depth,
-                    "Longest path in edges: 1 emitters only, 2 direct light, -1 no limit");
-    sub->add_option("--rr-depth", command->rr_depth, "Russian roulette from this many vertices on");
-    sub->add_option("--size", command->size, "Film size, WIDTHxHEIGHT");
-    sub->add_option("--crop", command->crop, "Part of the film, X,Y,WIDTH,HEIGHT");
-    sub->add_option("--seed", command->seed, "Seed of the random numbers");
-    sub->add_option("--aov", command->aovs, "Layers beside the image, e.g. albedo,normals,depth")
-        ->delimiter(',');
-    sub->add_option("-D,--define", command->definitions,
-                    "name=value for the scene's $name (repeat for more)")
-        ->allow_extra_args(false);
-    sub->add_option("--device", command->device,
-                    "Device by index or part of its name (see `parhelion devices`)");
-    sub->add_option("--exposure", command->exposure, "Stops of exposure for .png");
-    sub->add_option("--stats", command->stats_file, "Write times, counts and memory as JSON");
-    sub->add_flag("--force", command->force, "Overwrite the image if it exists");
-    sub->add_flag("-q,--quiet", command->quiet, "No progress");
-    sub->add_flag("--allow-outside", command->allow_outside,
-                  "Let the scene name files outside its own folder");
-    sub->add_option("--threads", command->threads, "CPU threads, 0 for all")->capture_default_str();
-    constexpr const char* split = "How work is split (the image stays the same to the bit)";
-    sub->add_option("--pool-paths", command->options.split.pool_paths, "Paths in flight")
-        ->capture_default_str()
-        ->group(split);
-    sub->add_option("--segment-paths", command->options.split.segment_paths,
-                    "Paths a work-item owns")
-        ->capture_default_str()
-        ->group(split);
-    sub->add_option("--work-group-size", command->options.split.work_group_size,
-                    "Work-items in a group")
-        ->capture_default_str()
-        ->group(split);
-    sub->add_option("--lanes", command->options.lanes,
-                    "Values a kernel handles at once: 1, 8, 16; 0 for the device's")
-        ->capture_default_str()
-        ->group(split);
-    sub->add_flag("--portable", command->options.portable, "Kernels without x86 intrinsics")
-        ->group(split);
-    sub->add_flag("--all-features", command->options.all_features,
-                  "Kernels not specialised to the scene")
-        ->group(split);
-    sub->add_flag("!--no-next-event", command->next_event, "Do not sample emitters")->group(split);
-    sub->footer(
-        "Examples:\n"
-        "  parhelion render scenes/cornell-box/scene.xml -o cornell.exr --spp 256\n"
-        "  parhelion render scene.xml -o preview.png --size 320x240 --spp 16 --exposure 1\n"
-        "  parhelion render scene.xml -o layers.exr --aov albedo,normals,depth --stats stats.json\n"
-        "  parhelion render scene.xml -o tile.exr --crop 0,0,64,64 -D light=bright --seed 7");
-    sub->callback([command] { run_render(*command); });
+Subcommand render_subcommand() {
+    auto c = std::make_shared<RenderCommand>();
+    Subcommand render{
+        .name = "render",
+        .summary = "Render a scene to an .exr (linear) or .png (preview) file",
+        .examples =
+            "Examples:\n"
+            "  parhelion render scenes/cornell-box/scene.xml -o cornell.exr --spp 256\n"
+            "  parhelion render scene.xml -o preview.png --size 320x240 --spp 16 --exposure 1\n"
+            "  parhelion render scene.xml -o layers.exr --aov albedo,normals,depth --stats "
+            "stats.json\n"
+            "  parhelion render scene.xml -o tile.exr --crop 0,0,64,64 -D light=bright --seed 7",
+        .options = image_options(*c),
+        .run = [c] { return run_render(*c); },
+    };
+    for (const Option& option : split_options(*c))
+        render.options.push_back(option);
+    return render;
 }
 
 } // namespace parhelion

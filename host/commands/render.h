@@ -1,21 +1,18 @@
 // `parhelion render`: a scene file to an image file.
 #pragma once
 
+#include "host/commands/command_line.h"
 #include "host/render/path_tracer.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace CLI { // NOLINT(readability-identifier-naming): the library's name
-class App;
-}
-
 namespace parhelion {
 
 /// Everything the command line can say; what is absent is the scene's.
 struct RenderCommand {
-    std::string scene_file, output = "", stats_file, device;
+    std::string scene_file, output = "out.exr", stats_file, device;
     std::vector<std::string> definitions; ///< name=value
     std::vector<std::string> aovs;
     std::optional<std::string> integrator, size, crop;
@@ -28,15 +25,15 @@ struct RenderCommand {
     RenderOptions options;
 };
 
-/// Loads, renders and writes. Throws InputError before any output exists, or DeviceError.
-void run_render(const RenderCommand& command);
+/// Loads, renders and writes; the exit code. Throws InputError before any output exists, or
+/// DeviceError.
+int run_render(const RenderCommand& command);
 
 /// Replaces what the scene file says by what the command line says. Throws InputError naming the
 /// option.
 void apply_overrides(const RenderCommand& command, Scene& scene);
 
-/// Registers the subcommand; errors pass through CLI::App::parse to the caller.
-void add_render_command(CLI::App& app);
+Subcommand render_subcommand();
 
 /// -D name=value pairs. Throws InputError for one without '='.
 std::map<std::string, std::string> parse_definitions(const std::vector<std::string>& definitions);

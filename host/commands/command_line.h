@@ -1,0 +1,52 @@
+// What a subcommand tells the command line: its options, its help, and what to run.
+//
+// The only file that knows the parsing library is command_line.cpp.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace parhelion {
+
+/// Where the value of an option goes. A bool is a flag.
+using OptionTarget = std::variant<bool*, int*, double*, std::string*, std::optional<int>*,
+                                  std::optional<std::uint32_t>*, std::optional<double>*,
+                                  std::optional<std::string>*, std::vector<std::string>*>;
+
+struct OptionRules {
+    bool required = false;
+    std::vector<std::string> needs{}; ///< options that must be given with it
+    char delimiter = 0;               ///< between the values of a list; 0: one value an occurrence
+    std::string group{};              ///< heading in the help; empty: the usual one
+};
+
+/// One row of a subcommand's table.
+struct Option {
+    std::string names; ///< "-o,--output"; without dashes: positional; "!--no-x": a flag that clears
+    OptionTarget target;
+    std::string help;
+    OptionRules rules{};
+};
+
+struct Subcommand {
+    std::string name{}, summary{};
+    std::string examples{}; ///< printed below the options
+    std::vector<Option> options{};
+    std::function<int()> run{}; ///< returns the exit code; owns what the options point to
+};
+
+struct CommandLine {
+    std::string summary{}, footer{}, version{};
+    std::vector<Subcommand> subcommands{};
+};
+
+/// Fills the targets of the subcommand named in `arguments` (without the program's name) and runs
+/// it; prints help and version where asked for. Returns the exit code. Throws InputError for a
+/// command line that cannot be understood; what the subcommand throws passes through.
+int run_command_line(const CommandLine& command_line, std::vector<std::string> arguments);
+
+} // namespace parhelion
