@@ -15,8 +15,8 @@ namespace parhelion {
 /// fill them touch them first.
 template<class T>
 struct CacheLineAllocator {
-    using value_type =
-        T; // NOLINT(readability-identifier-naming): the allocator requirements name it
+    // NOLINTNEXTLINE(readability-identifier-naming): the allocator requirements name it
+    using value_type = T;
     static constexpr std::align_val_t alignment{64};
 
     CacheLineAllocator() = default;

@@ -27,6 +27,10 @@ struct Image {
     std::vector<Channel> channels;
     std::vector<std::pair<std::string, MetadataValue>> metadata;
 
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
     std::size_t pixel_count() const { return static_cast<std::size_t>(width) * height; }
 };
 

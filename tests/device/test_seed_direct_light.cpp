@@ -128,8 +128,9 @@ TEST_CASE(
     for (int pixel = 0; pixel < 400; pixel++) {
         auto r = f32::random4(static_cast<unsigned>(pixel), 0, f32::dimension_camera,
                               scene.sampler.seed);
-        f32::vec2 film = {static_cast<float>(pixel % 20) + .5f + (f32::uniform01(r.x) - .5f),
-                          static_cast<float>(pixel / 20) + .5f + (f32::uniform01(r.y) - .5f)};
+        int x = pixel % 20, y = pixel / 20;
+        f32::vec2 film = {static_cast<float>(x) + .5f + (f32::uniform01(r.x) - .5f),
+                          static_cast<float>(y) + .5f + (f32::uniform01(r.y) - .5f)};
         auto ray = f32::camera_ray(camera, film, {0, 0});
         bvh_test::Ray test_ray{{ray.origin.x, ray.origin.y, ray.origin.z},
                                {ray.direction.x, ray.direction.y, ray.direction.z}};

@@ -15,6 +15,7 @@ namespace {
 std::vector<bvh_test::Ray> rays_for(int count, unsigned seed) {
     bvh_test::Random random(seed);
     std::vector<bvh_test::Ray> rays;
+    rays.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; i++)
         rays.push_back(bvh_test::random_ray(random, i));
     return rays;
@@ -33,6 +34,7 @@ struct Differences {
 Differences differences(const Traversal& traversal, const std::vector<bvh_test::Ray>& rays,
                         const std::vector<bvh_test::Hit>& truth) {
     std::vector<TestRay> test_rays;
+    test_rays.reserve(rays.size());
     for (const bvh_test::Ray& r : rays)
         test_rays.push_back(test_ray(r));
     std::vector<TestHit> hits = traversal.closest(test_rays);

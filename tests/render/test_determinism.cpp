@@ -33,8 +33,8 @@ int differing_values(const Image& full, const Image& part) {
         for (int y = 0; y < part.height; y++)
             for (int x = 0; x < part.width; x++) {
                 int fx = x + part.offset_x - full.offset_x, fy = y + part.offset_y - full.offset_y;
-                float a = full.channels[c].values[static_cast<std::size_t>(fy * full.width + fx)];
-                float b = part.channels[c].values[static_cast<std::size_t>(y * part.width + x)];
+                float a = full.channels[c].values[full.index(fx, fy)];
+                float b = part.channels[c].values[part.index(x, y)];
                 differing +=
                     std::bit_cast<unsigned>(a) != std::bit_cast<unsigned>(b) || !std::isfinite(a);
             }

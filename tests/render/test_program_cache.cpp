@@ -96,9 +96,10 @@ TEST_CASE("The program cache: fresh, warm, damaged, not writable; the image is t
         const char* name;
         std::function<std::string(const std::string&)> apply;
     };
-    auto turned = [](std::string s, std::size_t at, char bits) {
-        s.at(at) = static_cast<char>(s.at(at) ^ bits);
-        return s;
+    auto turned = [](const std::string& s, std::size_t at, char bits) {
+        std::string changed = s;
+        changed.at(at) = static_cast<char>(changed.at(at) ^ bits);
+        return changed;
     };
     const Damage damages[] = {
         {"empty", [](const std::string&) { return std::string(); }},

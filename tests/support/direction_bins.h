@@ -109,6 +109,7 @@ private:
     /// resolve.
     static double middle_half(const std::vector<Point>& points, double Point::*coordinate) {
         std::vector<double> values;
+        values.reserve(points.size());
         for (const Point& p : points)
             values.push_back(p.*coordinate);
         auto quarter = std::ptrdiff_t(values.size() / 4);

@@ -13,10 +13,10 @@ struct Rectangle {
 /// 7-point Gauss-Legendre product rule.
 template<class F>
 double gauss_product(const F& f, const Rectangle& r) {
-    static constexpr std::array<double, 7> NODE = {
+    static constexpr std::array<double, 7> node = {
         -0.94910791234275852, -0.74153118559939444, -0.40584515137739717, 0,
         0.40584515137739717,  0.74153118559939444,  0.94910791234275852};
-    static constexpr std::array<double, 7> WEIGHT = {
+    static constexpr std::array<double, 7> weight = {
         0.12948496616886969, 0.27970539148927667, 0.38183005050511894, 0.41795918367346939,
         0.38183005050511894, 0.27970539148927667, 0.12948496616886969};
     double half_x = (r.x1 - r.x0) / 2, half_y = (r.y1 - r.y0) / 2;
@@ -24,7 +24,7 @@ double gauss_product(const F& f, const Rectangle& r) {
     for (std::size_t i = 0; i < 7; i++)
         for (std::size_t j = 0; j < 7; j++)
             sum +=
-                WEIGHT[i] * WEIGHT[j] * f(middle_x + half_x * NODE[i], middle_y + half_y * NODE[j]);
+                weight[i] * weight[j] * f(middle_x + half_x * node[i], middle_y + half_y * node[j]);
     return sum * half_x * half_y;
 }
 

@@ -201,7 +201,7 @@ TEST_CASE("scene meshes: OBJ lines that cannot be read") {
     };
     for (const auto& [text, part] : cases) {
         INFO(text.substr(0, 100));
-        const std::string message = refusal([&] { obj(text); });
+        const std::string message = refusal([&text = text] { obj(text); });
         CHECK_THAT(message, Contains(part));
         CHECK(message.find('\n') == std::string::npos);
     }
@@ -295,7 +295,7 @@ TEST_CASE("scene meshes: PLY files that cannot be read") {
     };
     for (const auto& [text, part] : cases) {
         INFO(text);
-        CHECK_THAT(refusal([&] { ply(text); }), Contains(part));
+        CHECK_THAT(refusal([&text = text] { ply(text); }), Contains(part));
     }
 }
 

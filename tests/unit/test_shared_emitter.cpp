@@ -138,7 +138,11 @@ bool seen(const f32::EmitterSample& s) { return s.pdf > 0 && std::isfinite(s.pdf
 struct ConeGrid {
     f64::ShadingFrame frame;
     double lowest; // cosine
-    static constexpr int SIDE = 16;
+    static constexpr int side = 16;
+
+    static std::size_t cell(int row, int column) {
+        return std::size_t(row) * side + std::size_t(column);
+    }
 
     ConeGrid(const f32::Light& l, f32::vec3 p, Random& random) {
         f64::vec3 sum = {0, 0, 0};
@@ -154,15 +158,14 @@ struct ConeGrid {
             lowest = std::min(lowest, f64::dot3(w, frame.n));
         lowest = std::max(-1.0, 1 - (1 - lowest) * 1.2);
     }
-    /// SIDE * SIDE for a direction outside the cone.
+    /// side * side for a direction outside the cone.
     std::size_t find(f64::vec3 w) const {
         f64::vec3 v = to_local(frame, w);
         double x = (v.x * v.x + v.y * v.y) / (1 + v.z) / (1 - lowest),
                y = std::atan2(v.y, v.x) / (2 * M_PI) + 0.5;
         if (v.z < 0) x = (1 - v.z) / (1 - lowest);
-        if (x >= 1) return SIDE * SIDE;
-        return std::size_t(x * SIDE) * SIDE +
-               std::min(std::size_t(y * SIDE), std::size_t(SIDE - 1));
+        if (x >= 1) return side * side;
+        return cell(int(x * side), std::min(int(y * side), side - 1));
     }
     f64::vec3 direction(double x, double y) const {
         double drop = x * (1 - lowest), r = std::sqrt(drop * (2 - drop)),
@@ -186,7 +189,7 @@ TEST_CASE("Emitters: samples follow the density that a traced ray is told", "[em
         f64::vec3 p64 = receiver<F64>(c.light);
         if (!seen(emitter_sample(l, p, {0.4f, 0.3f}))) continue;
         ConeGrid grid(l, p, random);
-        const int cells = ConeGrid::SIDE * ConeGrid::SIDE, fine = 48, count = 400000;
+        const int cells = ConeGrid::side * ConeGrid::side, fine = 48, count = 400000;
         std::vector<double> observed(cells + 1), expected(cells + 1);
         for (int n = 0; n < count; n++) {
             auto s = emitter_sample(l, p, random.square<F32>());
@@ -194,17 +197,17 @@ TEST_CASE("Emitters: samples follow the density that a traced ray is told", "[em
         }
         // The density, traced: midpoints suffice, since only cells cut by the emitter's border are
         // rough.
-        double weight = grid.solid_angle() / (ConeGrid::SIDE * ConeGrid::SIDE * fine * fine),
+        double weight = grid.solid_angle() / (ConeGrid::side * ConeGrid::side * fine * fine),
                total = 0;
-        for (int i = 0; i < ConeGrid::SIDE * fine; i++)
-            for (int j = 0; j < ConeGrid::SIDE * fine; j++) {
-                double x = (i + 0.5) / (ConeGrid::SIDE * fine),
-                       y = (j + 0.5) / (ConeGrid::SIDE * fine);
+        for (int i = 0; i < ConeGrid::side * fine; i++)
+            for (int j = 0; j < ConeGrid::side * fine; j++) {
+                double x = (i + 0.5) / (ConeGrid::side * fine),
+                       y = (j + 0.5) / (ConeGrid::side * fine);
                 f64::vec3 w = grid.direction(x, y);
                 Meeting m = c.trace(l64, p64, w);
                 if (!m.hit) continue;
                 double density = emitter_hit(l64, p64, w, m.q).pdf / c.light.pmf * weight;
-                expected[std::size_t(i / fine * ConeGrid::SIDE + j / fine)] += density * count;
+                expected[ConeGrid::cell(i / fine, j / fine)] += density * count;
                 total += density;
             }
         INFO(c.name << ", pmf " << c.light.pmf << ": density integrates to " << total);

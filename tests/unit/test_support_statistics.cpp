@@ -37,6 +37,7 @@ namespace {
 double cosine_p_value(double claimed_power) {
     Random random(5);
     std::vector<f32::vec3> pilot;
+    pilot.reserve(8192);
     for (int n = 0; n < 8192; n++)
         pilot.push_back(f32::hemisphere_cosine(random.square<F32>()));
     DirectionBins bins(pilot, 64);

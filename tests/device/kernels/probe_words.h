@@ -1,6 +1,9 @@
 // Probes: shared functions as words in, words out, so that one text calls them on the device and on
 // the host.
 
+// C and C++: typedefs, and the names of the shared maths.
+// NOLINTBEGIN(modernize-use-using, readability-identifier-naming)
+
 #define PROBE_INPUTS 36
 #define PROBE_OUTPUTS 24
 
@@ -66,3 +69,5 @@ RECORD_INPUT(Vertex, VERTEX_FIELDS, TAKE_FIELD)
 RECORD_INPUT(Material, MATERIAL_FIELDS, TAKE_FIELD)
 RECORD_INPUT(Light, LIGHT_FIELDS, TAKE_FIELD)
 RECORD_INPUT(Camera, CAMERA_FIELDS, TAKE_FIELD)
+
+// NOLINTEND(modernize-use-using, readability-identifier-naming)
