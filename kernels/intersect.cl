@@ -2,7 +2,7 @@
 #include "device/device.h"
 #include "device/lanes_memory.h"
 #include "device/path_state.h"
-#include "device/traverse.h"
+#include "device/traverse_packet.h"
 
 /// Reads: path state (ray, t as its end, excluded). Writes: path state (t, b1, b2, primitive).
 kernel void intersect(KERNEL_PARAMETERS) {
@@ -10,15 +10,15 @@ kernel void intersect(KERNEL_PARAMETERS) {
     int base = segment * params.segment_stride;
     int end = base + counts[2 * segment];
     int root = depth == 0 ? params.camera_root : params.root;
-    for (int at = base; at < end; at++) {
-        TraversalRay ray = traversal_ray(PATH_AT(ox), PATH_AT(oy), PATH_AT(oz), PATH_AT(dx),
-                                         PATH_AT(dy), PATH_AT(dz));
-        RayHit hit =
-            traverse(bvh_nodes, bvh_leaves, root, &ray, PATH_AT(t), PATH_INT_AT(excluded), 0);
-        PATH_AT(t) = hit.t;
-        PATH_AT(b1) = hit.b1;
-        PATH_AT(b2) = hit.b2;
-        PATH_INT_AT(primitive) = hit.primitive;
+    for (int at = base; at < end; at += LANES) {
+        PacketRay rays = packet_ray(v3(PATH_LOAD_REAL(ox), PATH_LOAD_REAL(oy), PATH_LOAD_REAL(oz)),
+                                    v3(PATH_LOAD_REAL(dx), PATH_LOAD_REAL(dy), PATH_LOAD_REAL(dz)));
+        PacketHit hit = traverse_packet(bvh_nodes, bvh_leaves, root, rays, PATH_LOAD_REAL(t),
+                                        PATH_LOAD_INT(excluded), active_lanes(end - at), 0);
+        PATH_STORE_REAL(t, hit.t);
+        PATH_STORE_REAL(b1, hit.b1);
+        PATH_STORE_REAL(b2, hit.b2);
+        PATH_STORE_INT(primitive, hit.primitive);
     }
     if (depth > 0)
         statistics[statistic_count * segment + statistic_bounce_rays] += (ulong)(end - base);

@@ -55,9 +55,6 @@ struct BvhStatistics {
     double leaf_fill = 0;  ///< used share of the leaves' places, 0 to 1
 };
 
-/// Entries of the stack with which the kernels walk (STACK_SIZE in kernels/device/traverse.h).
-inline constexpr int bvh_stack_limit = 512;
-
 /// Builds a tree over the primitives numbered in `subset` and appends it to bvh; returns the root
 /// as a child code:
 /// >= 0 a node, < 0 a leaf, ~((leaf << 2) | geometry kind). An empty subset gives a node whose 16
@@ -65,10 +62,10 @@ inline constexpr int bvh_stack_limit = 512;
 /// need more than `stack_limit` stack entries is built again by halving, which needs at most 15
 /// (log2(n) + 3). Coordinates are finite; at most 2^29 leaves in bvh.
 int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::span<const int> subset,
-               BvhStatistics* statistics = nullptr, int stack_limit = bvh_stack_limit);
+               BvhStatistics* statistics = nullptr, int stack_limit = BVH_STACK);
 
 /// The same over all primitives.
 int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives,
-               BvhStatistics* statistics = nullptr, int stack_limit = bvh_stack_limit);
+               BvhStatistics* statistics = nullptr, int stack_limit = BVH_STACK);
 
 } // namespace parhelion

@@ -33,6 +33,7 @@ Device describe(const cl::Device& handle, const std::string& platform, int index
     d.max_allocation_bytes = handle.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
     d.compute_units = handle.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     d.float_width = std::max(1u, handle.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>());
+    d.keeps_programs = platform == "Portable Computing Language";
     d.fp64 = handle.getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_fp64") != std::string::npos;
     return d;
 }

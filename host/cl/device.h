@@ -20,6 +20,9 @@ struct Device {
     unsigned compute_units = 0;
     unsigned float_width = 1; ///< floats in a native vector
     bool fp64 = false;
+    /// The driver keeps compiled programs on disk itself; asking it for a binary would make it
+    /// compile every kernel once more (PoCL: for work-groups of any size).
+    bool keeps_programs = false;
 
     /// Values a lane-generic kernel handles at once here: 16 or 8 on CPUs, 1 elsewhere.
     int lanes() const;

@@ -1,12 +1,12 @@
-// Compiling one kernel file, or reading back what was compiled before.
+// Compiling kernel files, or reading back what was compiled before.
 #include "host/cl/program.h"
 
 #include "host/cl/source.h"
 #include "host/error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <chrono>
 #include <sstream>
 
 namespace parhelion {
@@ -30,24 +30,29 @@ std::string first_errors(const std::string& log) {
     return errors.empty() ? log : errors;
 }
 
-std::string kernel_name(const std::string& file) { return file.substr(0, file.find('.')); }
-
 } // namespace
 
-Program::Program(const cl::Context& context, const Device& device, const ProgramCache& cache,
-                 const std::string& file, const ProgramOptions& options)
-    : Program(context, device, cache, file, kernel_source(file), options) {}
+std::string ProgramSource::key(const Device& device) const {
+    return fmt::format("{}\n{}\n{}\n{}\n{}\n", device.platform, device.name, device.driver_version,
+                       device.opencl_version, options) +
+           text;
+}
+
+ProgramSource program_source(const std::vector<std::string>& files, const ProgramOptions& options) {
+    return program_source(fmt::format("{}", fmt::join(files, " + ")), kernel_source(files),
+                          options);
+}
+
+ProgramSource program_source(const std::string& name, const std::string& text,
+                             const ProgramOptions& options) {
+    return {name, text, option_text(options)};
+}
 
 Program::Program(const cl::Context& context, const Device& device, const ProgramCache& cache,
-                 const std::string& file, const std::string& source, const ProgramOptions& options)
-    : file_(file), options_(option_text(options)) {
-    auto start = std::chrono::steady_clock::now();
-    key_ = fmt::format("{}\n{}\n{}\n{}\n{}\n", device.platform, device.name, device.driver_version,
-                       device.opencl_version, options_) +
-           source;
+                 const ProgramSource& source)
+    : key_(source.key(device)) {
     if (auto binary = cache.load(key_)) from_cache_ = build_from(context, device, *binary);
     if (!from_cache_) build_source(context, device, source);
-    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 bool Program::build_from(const cl::Context& context, const Device& device,
@@ -55,26 +60,29 @@ bool Program::build_from(const cl::Context& context, const Device& device,
     try {
         program_ = cl::Program(context, {device.handle}, {binary});
         program_.build({device.handle});
-        kernel(); // a binary without it is of no use
-        return true;
+        std::vector<cl::Kernel> kernels;
+        program_.createKernels(&kernels); // a binary without them is of no use
+        return !kernels.empty();
     } catch (const cl::Error&) {
         return false; // from another build of the driver, say: the source is at hand
     }
 }
 
 void Program::build_source(const cl::Context& context, const Device& device,
-                           const std::string& source) {
-    program_ = cl::Program(context, source);
+                           const ProgramSource& source) {
+    program_ = cl::Program(context, source.text);
     try {
-        program_.build({device.handle}, options_.c_str());
+        program_.build({device.handle}, source.options.c_str());
     } catch (const cl::Error& e) {
         std::string log = first_errors(program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle));
-        throw DeviceError(fmt::format("kernel file {} does not compile on {}: {}\n{}", file_,
+        throw DeviceError(fmt::format("kernel file {} does not compile on {}: {}\n{}", source.name,
                                       device.name, opencl_error_name(e.err()), log));
     }
 }
 
-cl::Kernel Program::kernel() const { return cl::Kernel(program_, kernel_name(file_).c_str()); }
+cl::Kernel Program::kernel(const std::string& name) const {
+    return cl::Kernel(program_, name.c_str());
+}
 
 void Program::store(const ProgramCache& cache) const {
     if (from_cache_) return;

@@ -1,4 +1,4 @@
-// Compiling one kernel file, or reading back what was compiled before.
+// Compiling kernel files, or reading back what was compiled before.
 #pragma once
 
 #include "host/cl/device.h"
@@ -9,39 +9,49 @@
 
 namespace parhelion {
 
-/// How a kernel file is specialised. Nothing of a scene's values may enter: kinds only.
+/// How kernel files are specialised. Nothing of a scene's values may enter: kinds only.
 struct ProgramOptions {
     int lanes = 1;
     std::uint64_t features = ~std::uint64_t{0}; ///< mask over enum Feature
     bool portable = false;                      ///< without x86 intrinsics
 };
 
+/// What is compiled, and for what; whatever can change the result is in its key.
+struct ProgramSource {
+    std::string name; ///< for messages
+    std::string text;
+    std::string options; ///< of the OpenCL compiler
+
+    std::string key(const Device& device) const;
+};
+
+/// From embedded kernel files, e.g. {"shade.cl"}.
+ProgramSource program_source(const std::vector<std::string>& files, const ProgramOptions& options);
+/// From a text already put together.
+ProgramSource program_source(const std::string& name, const std::string& text,
+                             const ProgramOptions& options);
+
 class Program {
 public:
     /// Takes the program from the cache or compiles it. Throws DeviceError with the compiler's log.
     Program(const cl::Context& context, const Device& device, const ProgramCache& cache,
-            const std::string& file, const ProgramOptions& options);
-    /// The same for a source already put together; `file` names it and its kernel.
-    Program(const cl::Context& context, const Device& device, const ProgramCache& cache,
-            const std::string& file, const std::string& source, const ProgramOptions& options);
+            const ProgramSource& source);
 
-    /// The kernel of the file: "shade.cl" holds kernel `shade`.
-    cl::Kernel kernel() const;
+    cl::Kernel kernel(const std::string& name) const;
     bool from_cache() const { return from_cache_; }
-    double seconds() const { return seconds_; }
-    /// Keeps the compiled program for the next run. Called after the kernel has run once: some
+    /// Keeps the compiled program for the next run. Called after its kernels have run once: some
     /// implementations finish compiling only then.
     void store(const ProgramCache& cache) const;
 
 private:
     bool build_from(const cl::Context& context, const Device& device,
                     const std::vector<unsigned char>& binary);
-    void build_source(const cl::Context& context, const Device& device, const std::string& source);
+    void build_source(const cl::Context& context, const Device& device,
+                      const ProgramSource& source);
 
-    std::string file_, options_, key_;
+    std::string key_;
     cl::Program program_;
     bool from_cache_ = false;
-    double seconds_ = 0.0;
 };
 
 } // namespace parhelion

@@ -26,9 +26,10 @@ std::string self_test(const Device& device) {
     try {
         cl::Context context(device.handle);
         cl::CommandQueue queue(context, device.handle);
-        Program program(context, device, ProgramCache({}), "self_test.cl", {device.lanes()});
+        Program program(context, device, ProgramCache({}),
+                        program_source({"self_test.cl"}, {device.lanes()}));
         Buffer<float> out(context, "self_test", 2 * count);
-        cl::Kernel kernel = program.kernel();
+        cl::Kernel kernel = program.kernel("self_test");
         kernel.setArg(0, out.handle());
         kernel.setArg(1, count);
         queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(count));

@@ -60,10 +60,11 @@ std::string kernel_source(std::string_view name, std::string_view text) {
     return source;
 }
 
-std::string kernel_source(std::string_view path) {
+std::string kernel_source(const std::vector<std::string>& paths) {
     std::set<std::string_view> done;
     std::string source;
-    append_file(path, done, source);
+    for (const std::string& path : paths)
+        append_file(path, done, source);
     return source;
 }
 

@@ -149,7 +149,8 @@ int run_render(const RenderCommand& command) {
     for (const std::string& note : scene.notes)
         progress.note("note: " + note);
 
-    RenderResult result = render(scene, choose_device(command.device), command.options, progress);
+    RenderDevice device(choose_device(command.device));
+    RenderResult result = render(scene, device, command.options, progress);
     result.report.load_seconds = load_seconds;
     add_metadata(scene, result.report, result.image);
     if (result.report.non_finite_samples > 0)

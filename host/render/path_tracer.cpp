@@ -130,16 +130,16 @@ RenderReport start_report(const Scene& scene, const Device& device, const Device
 
 } // namespace
 
-RenderResult render(const Scene& scene, const Device& device, const RenderOptions& options,
+RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
                     Progress& progress) {
     AovPlan aovs = plan_aovs(scene.integrator);
-    int lanes = options.lanes > 0 ? options.lanes : device.lanes();
+    int lanes = options.lanes > 0 ? options.lanes : device.device.lanes();
 
     progress.start("building the BVH");
     auto start = std::chrono::steady_clock::now();
     DeviceScene flat = make_device_scene(scene);
     RenderResult result;
-    result.report = start_report(scene, device, flat, lanes);
+    result.report = start_report(scene, device.device, flat, lanes);
     result.report.bvh_seconds = seconds_since(start);
     progress.finish(fmt::format("{} primitives", flat.primitives.size()));
 
@@ -147,7 +147,7 @@ RenderResult render(const Scene& scene, const Device& device, const RenderOption
     start = std::chrono::steady_clock::now();
     std::uint64_t features =
         options.all_features ? flat.features | neutral_features() : flat.features;
-    Pipeline pipeline(device, lanes, options.portable, features);
+    Pipeline pipeline(device, {lanes, options.portable, features, options.split.work_group_size});
     result.report.compile_seconds = seconds_since(start);
     result.report.stages = pipeline.stage_reports();
     progress.finish(result.report.all_cached() ? "cached" : "compiled");

@@ -1,11 +1,11 @@
 // Rendering a scene on a device: the wavefront loop.
 #pragma once
 
-#include "host/cl/device.h"
 #include "host/image/image.h"
 #include "host/progress.h"
 #include "host/render/device_scene.h"
 #include "host/render/pipeline.h"
+#include "host/render/render_device.h"
 #include "host/render/report.h"
 #include "host/scene/scene.h"
 
@@ -25,7 +25,7 @@ struct RenderResult {
 
 /// Renders a scene whose film has its crop resolved. The image depends on the scene (and its seed)
 /// alone, to the bit.
-RenderResult render(const Scene& scene, const Device& device, const RenderOptions& options,
+RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
                     Progress& progress);
 
 } // namespace parhelion

@@ -2,9 +2,7 @@
 #pragma once
 
 #include "host/cl/buffer.h"
-#include "host/cl/program.h"
-#include "host/render/report.h"
-#include "host/render/stages.h"
+#include "host/render/stage_programs.h"
 
 #include <sys/types.h> // ulong, as the kernels call it
 
@@ -45,7 +43,8 @@ WorkSizes work_sizes(int crop_width, int crop_height, int samples, int lanes, in
 
 class Pipeline {
 public:
-    Pipeline(const Device& device, int lanes, bool portable, std::uint64_t features);
+    /// `device` must outlive it.
+    Pipeline(RenderDevice& device, const StageOptions& options);
 
     void upload(const DeviceScene& scene);
     void allocate(const WorkSizes& sizes);
@@ -63,19 +62,13 @@ public:
     /// Keeps freshly compiled programs for the next run.
     void store_programs() const;
 
-    const std::vector<StageReport>& stage_reports() const { return reports_; }
+    const std::vector<StageReport>& stage_reports() const { return stages_.reports; }
     std::size_t pool_bytes() const;
     std::size_t film_bytes() const { return work_.film.bytes(); }
 
 private:
-    void compile(const Device& device, int lanes, bool portable, std::uint64_t features);
-
-    cl::Context context_;
-    cl::CommandQueue queue_;
-    ProgramCache cache_ = ProgramCache::standard();
-    std::vector<Program> programs_;
-    std::vector<cl::Kernel> kernels_;
-    std::vector<StageReport> reports_;
+    RenderDevice& device_;
+    StagePrograms stages_;
     std::vector<std::pair<std::size_t, cl::Event>> pending_;
     SceneBuffers scene_;
     WorkBuffers work_;

@@ -1,6 +1,8 @@
 // The one place that decides which features a scene's kernels have.
 #include "host/render/scene_features.h"
 
+#include "host/render/material_records.h"
+
 #include "host/render/device_scene.h"
 
 #include <algorithm>
@@ -37,11 +39,7 @@ void add_bsdf(const RoughDielectricBsdf& b, FeatureSet& set) {
     add_roughness(b.distribution, b.alpha_u, b.alpha_v, set);
 }
 
-bool is_opaque(const Bsdf& bsdf) {
-    return std::holds_alternative<DiffuseBsdf>(bsdf) ||
-           std::holds_alternative<ConductorBsdf>(bsdf) ||
-           std::holds_alternative<RoughConductorBsdf>(bsdf);
-}
+bool is_opaque(const Bsdf& bsdf) { return (OPAQUE_MATERIALS >> material_record(bsdf).kind) & 1; }
 
 void add_materials(const Scene& scene, FeatureSet& set) {
     for (const Material& m : scene.materials)

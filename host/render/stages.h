@@ -9,13 +9,22 @@
 
 namespace parhelion {
 
-// name of the kernel and of its file
-#define STAGES(X) X(generate) X(intersect) X(shade) X(shadow) X(accumulate)
+// name of the kernel and of its file, program it is compiled in
+#define STAGES(X)                                                                                  \
+    X(generate, tracing)                                                                           \
+    X(intersect, tracing) X(shade, shading) X(shadow, tracing) X(accumulate, tracing)
 
-#define STAGE_ENUM(name) name,
+// Compiling has a cost for each program beside that of its kernels, and two can be compiled at
+// once: what changes with every scene's materials is one, the rest the other.
+enum class ProgramGroup { tracing, shading };
+inline constexpr std::array program_groups{ProgramGroup::tracing, ProgramGroup::shading};
+
+#define STAGE_ENUM(name, group) name,
 enum class Stage { STAGES(STAGE_ENUM) };
-#define STAGE_NAME(name) #name,
+#define STAGE_NAME(name, group) #name,
 inline constexpr std::array stage_names{STAGES(STAGE_NAME)};
+#define STAGE_GROUP(name, group) ProgramGroup::group,
+inline constexpr std::array stage_groups{STAGES(STAGE_GROUP)};
 inline constexpr std::size_t stage_count = stage_names.size();
 
 /// The part of a feature mask that can change the stage's program; the rest would only make more

@@ -6,6 +6,15 @@
 #define STORE_REAL(p, v) (*(global Real*)(p) = (v))
 #define STORE_INT(p, v) (*(global Int*)(p) = (v))
 
+typedef union {
+    Real lanes;
+    float at[LANES];
+} RealLanes;
+typedef union {
+    Int lanes;
+    int at[LANES];
+} IntLanes;
+
 typedef struct {
     Real word[16];
 } Record;
@@ -30,22 +39,10 @@ FN Real gather(global const float* p, Int index) { return p[index]; }
 FN void scatter_add(global float* p, Int index, Real v, uint bits) {
     if (bits) p[index] += v;
 }
-FN void scatter(global float* p, Int index, Real v, uint bits) {
-    if (bits) p[index] = v;
-}
 
 #else
 // -----------------------------------------------------------------------------------------------
 // many lanes
-typedef union {
-    Real lanes;
-    float at[LANES];
-} RealLanes;
-typedef union {
-    Int lanes;
-    int at[LANES];
-} IntLanes;
-
 #ifdef LANE_AVX512
 #if LANES == 16
 FN void store_packed(global float* p, Real v, uint bits) {
@@ -89,15 +86,6 @@ FN Real gather(global const float* p, Int index) {
 }
 
 /// The lanes' indices must differ.
-FN void scatter(global float* p, Int index, Real v, uint bits) {
-    IntLanes i;
-    RealLanes x;
-    i.lanes = index;
-    x.lanes = v;
-    for (int k = 0; k < LANES; k++)
-        if ((bits >> k) & 1u) p[i.at[k]] = x.at[k];
-}
-
 FN void scatter_add(global float* p, Int index, Real v, uint bits) {
     IntLanes i;
     RealLanes x;

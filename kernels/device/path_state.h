@@ -14,12 +14,14 @@
     store_packed_int((global int*)shadow_state + (long)shadow_##name * params.state_stride + to,   \
                      v, bits)
 
-// One entry, for the stages that walk the tree a ray at a time.
-#define PATH_AT(name) path_state[(long)path_##name * params.state_stride + at]
-#define PATH_INT_AT(name) ((global int*)path_state)[(long)path_##name * params.state_stride + at]
-#define SHADOW_AT(name) shadow_state[(long)shadow_##name * params.state_stride + at]
-#define SHADOW_INT_AT(name)                                                                        \
-    ((global int*)shadow_state)[(long)shadow_##name * params.state_stride + at]
+#define PATH_STORE_REAL(name, v)                                                                   \
+    STORE_REAL(path_state + (long)path_##name * params.state_stride + at, v)
+#define PATH_STORE_INT(name, v)                                                                    \
+    STORE_INT((global int*)path_state + (long)path_##name * params.state_stride + at, v)
+#define SHADOW_LOAD_REAL(name)                                                                     \
+    LOAD_REAL(shadow_state + (long)shadow_##name * params.state_stride + at)
+#define SHADOW_LOAD_INT(name)                                                                      \
+    LOAD_INT((global const int*)shadow_state + (long)shadow_##name * params.state_stride + at)
 
 #define RESULT(channel) (results + (long)(channel)*params.path_capacity)
 

@@ -4,43 +4,14 @@
 // Boxes are widened and triangles are watertight, so no hit is lost; of two hits at the same
 // distance the lower primitive number wins, so the answer does not depend on the order of the walk.
 
+#include "device/traversal_ray.h"
+
 #define LANE_GROUPS (BVH_WIDTH / LANES)
-#define STACK_SIZE 512
 
 typedef struct {
     float t, b1, b2;
     int primitive; // -1: nothing
 } RayHit;
-
-typedef struct {
-    float origin[3], direction[3], inverse[3];
-    int near_row[3], far_row[3]; // rows of BvhNode::bounds met first and last
-    int axis[3];                 // x, y, z after renaming; z is the direction's largest
-    float shear[3];
-} TraversalRay;
-
-FN TraversalRay traversal_ray(float ox, float oy, float oz, float dx, float dy, float dz) {
-    TraversalRay r;
-    r.origin[0] = ox, r.origin[1] = oy, r.origin[2] = oz;
-    r.direction[0] = dx, r.direction[1] = dy, r.direction[2] = dz;
-    for (int a = 0; a < 3; a++) {
-        r.inverse[a] =
-            1.f / r.direction[a]; // infinite for an axis the ray is parallel to: see box_overlap
-        int negative = r.inverse[a] < 0.f;
-        r.near_row[a] = 2 * a + negative;
-        r.far_row[a] = 2 * a + 1 - negative;
-    }
-    float x = fabs(dx), y = fabs(dy), z = fabs(dz);
-    int kz = x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
-    r.axis[0] = kz == 2 ? 0 : kz + 1;
-    r.axis[1] = r.axis[0] == 2 ? 0 : r.axis[0] + 1;
-    r.axis[2] = kz;
-    float d = r.direction[kz];
-    r.shear[0] = r.direction[r.axis[0]] / d;
-    r.shear[1] = r.direction[r.axis[1]] / d;
-    r.shear[2] = 1.f / d;
-    return r;
-}
 
 #define LEAF_ROW(row) LOAD_REAL(leaf->rows[row] + group * LANES)
 
@@ -83,15 +54,10 @@ FN Intersection leaf_group(global const BvhLeaf* leaf, int kind, int group, cons
     return leaf_triangles(leaf, group, ray, t_max);
 }
 
-#if LANES == 1
-#define LANE_OF(v, k) (v)
-#define LANE_DECLARE(name, v) const float name[1] = {v}
-#else
 #define LANE_DECLARE(name, v)                                                                      \
     RealLanes name##_lanes;                                                                        \
     name##_lanes.lanes = v;                                                                        \
     const float* name = name##_lanes.at
-#endif
 
 /// Takes the hits of one leaf into `hit`; returns whether there was one.
 FN int leaf_intersect(global const BvhLeaf* leaf, int kind, const TraversalRay* ray, int excluded,
@@ -140,8 +106,8 @@ FN RayHit traverse(global const BvhNode* nodes, global const BvhLeaf* leaves, in
                    const TraversalRay* ray, float t_max, int excluded, int any_hit) {
     RayHit hit;
     hit.t = t_max, hit.b1 = 0.f, hit.b2 = 0.f, hit.primitive = -1;
-    int stack[STACK_SIZE];
-    float stack_entry[STACK_SIZE];
+    int stack[BVH_STACK];
+    float stack_entry[BVH_STACK];
     int top = 0, current = root;
     for (;;) {
         int next = 0, have_next = 0;

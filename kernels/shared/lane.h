@@ -36,6 +36,9 @@ typedef int Mask; // 0 or 1
 #define someLane(m) (m)
 #define maskBits(m) ((uint)(m))
 #define LANE_INDEX 0
+#define lanesOf(bits) ((Mask)(bits))
+#define lowestLane(v) (v)
+#define highestLane(v) (v)
 #else
 #define LANE_CAT_(a, b) a##b
 #define LANE_CAT(a, b) LANE_CAT_(a, b)
@@ -77,6 +80,32 @@ FN uint maskBits(Mask m) {
 }
 FN int someLane(Mask m) { return maskBits(m) != 0; }
 #endif
+#endif
+
+#if LANES > 1
+/// The lanes whose bits are set.
+FN Mask lanesOf(uint bits) { return ((Int)(int)bits << (31 - LANE_INDEX)) < 0; }
+
+#define LANE_LESS(a, b) ((a) < (b) ? (a) : (b))
+#define LANE_MORE(a, b) ((a) > (b) ? (a) : (b))
+#if LANES == 16
+#define LANE_FOLD(v, f) f((v).lo, (v).hi)
+#else
+#define LANE_FOLD(v, f) (v)
+#endif
+/// The smallest and the largest value of all lanes, none of which is a NaN.
+FN float lowestLane(Real v) {
+    float8 w = LANE_FOLD(v, LANE_LESS);
+    float4 x = LANE_LESS(w.lo, w.hi);
+    float2 y = LANE_LESS(x.lo, x.hi);
+    return LANE_LESS(y.x, y.y);
+}
+FN float highestLane(Real v) {
+    float8 w = LANE_FOLD(v, LANE_MORE);
+    float4 x = LANE_MORE(w.lo, w.hi);
+    float2 y = LANE_MORE(x.lo, x.hi);
+    return LANE_MORE(y.x, y.y);
+}
 #endif
 
 /// Position of the lowest set bit; bits != 0.

@@ -91,6 +91,7 @@ LAYOUT(FilterBin, 8);
 
 // ------------------------------------------------------------------------------------------------------ BVH
 #define BVH_WIDTH 16
+#define BVH_STACK 512 // children that may wait while a ray walks the tree; the builder keeps to it
 
 // Children's boxes as rows of 16: low x, high x, low y, high y, low z, high z. An absent child's box is empty
 // (low = +inf, high = -inf). child >= 0: a node; child < 0: ~((leaf << 2) | geometry kind).

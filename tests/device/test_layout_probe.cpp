@@ -42,7 +42,7 @@ TEST_CASE("Sizes and offsets of all structs that cross the bus are the same on t
         CAPTURE(variant.name());
         Program program = test_program(d, {"layouts.h", "layout_probe.cl"}, variant);
         Buffer<int> out(d.context, "layout_probe", std::size(places) + words);
-        cl::Kernel kernel = program.kernel();
+        cl::Kernel kernel = program.kernel("layout_probe");
         kernel.setArg(0, out.handle());
         kernel.setArg(1, numbered<RenderParams>(1000));
         kernel.setArg(2, numbered<WaveParams>(2000));

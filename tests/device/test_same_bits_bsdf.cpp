@@ -1,18 +1,7 @@
 // Host and device compute the same bits: every kind of material.
-#include "tests/support/probes.h"
+#define PROBES_HEADER "tests/device/kernels/probes_bsdf.h"
+#include "tests/support/same_bits.h"
 
-using namespace parhelion;
-using namespace parhelion::test;
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-namespace parhelion::f32 {
-#include "tests/device/kernels/probes_bsdf.h"
-} // namespace parhelion::f32
-#pragma GCC diagnostic pop
-
-#define PROBE(name, inputs, outputs) {#name, inputs, outputs, f32::probe_##name},
 TEST_CASE("Host and device agree to the bit: every kind of material", "[device]") {
-    const Probe probes[] = {PROBES};
-    check_same_bits("probes_bsdf.h", probes);
+    parhelion::test::check_same_bits();
 }

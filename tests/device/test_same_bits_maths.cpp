@@ -1,21 +1,10 @@
 // Host and device compute the same bits: vectors, elementary functions, sampler, warps, frames,
 // Fresnel terms and microfacets.
-#include "tests/support/probes.h"
+#define PROBES_HEADER "tests/device/kernels/probes_maths.h"
+#include "tests/support/same_bits.h"
 
-using namespace parhelion;
-using namespace parhelion::test;
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-namespace parhelion::f32 {
-#include "tests/device/kernels/probes_maths.h"
-} // namespace parhelion::f32
-#pragma GCC diagnostic pop
-
-#define PROBE(name, inputs, outputs) {#name, inputs, outputs, f32::probe_##name},
 TEST_CASE("Host and device agree to the bit: vectors, elementary functions, sampler, warps, "
           "frames, Fresnel terms and microfacets",
           "[device]") {
-    const Probe probes[] = {PROBES};
-    check_same_bits("probes_maths.h", probes);
+    parhelion::test::check_same_bits();
 }

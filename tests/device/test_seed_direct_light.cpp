@@ -65,7 +65,7 @@ constexpr double light_a = 2 / std::numbers::sqrt2 / 2 / 8, light_b = 0.8 / 25;
 
 TEST_CASE("Seed item f: direct light of two point lights with shadow rays, exact values",
           "[device][seed]") {
-    Device device = choose_device("");
+    RenderDevice device(choose_device(""));
     Progress quiet(Progress::Mode::quiet);
     const double reflectance[] = {0.5, 0.25, 1.0}, power_a[] = {40, 20, 10},
                  power_b[] = {100, 50, 25};
@@ -89,7 +89,7 @@ TEST_CASE("Seed item f: direct light of two point lights with shadow rays, exact
 
 TEST_CASE("Seed item f: with one light there is no noise, and the blocked one is black",
           "[device][seed]") {
-    Device device = choose_device("");
+    RenderDevice device(choose_device(""));
     Progress quiet(Progress::Mode::quiet);
     for (std::size_t removed : {0u, 1u}) {
         for (bool blocker : {false, true}) {
@@ -118,7 +118,8 @@ TEST_CASE(
     scene.film.crop_x = scene.film.crop_y = 0;
     scene.sampler.samples_per_pixel = 1;
     Progress quiet(Progress::Mode::quiet);
-    RenderResult result = render(scene, choose_device(""), {}, quiet);
+    RenderDevice device(choose_device(""));
+    RenderResult result = render(scene, device, {}, quiet);
     DeviceScene flat = make_device_scene(scene);
     CameraRecord record = camera_record(scene.camera, 20, 20);
     f32::Camera camera{};

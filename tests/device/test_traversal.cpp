@@ -12,12 +12,20 @@ using bvh_test::Primitives;
 
 namespace {
 
+/// Random rays, and as many in packets that go the same way.
 std::vector<bvh_test::Ray> rays_for(int count, unsigned seed) {
     bvh_test::Random random(seed);
     std::vector<bvh_test::Ray> rays;
-    rays.reserve(static_cast<std::size_t>(count));
+    rays.reserve(static_cast<std::size_t>(2 * count));
     for (int i = 0; i < count; i++)
         rays.push_back(bvh_test::random_ray(random, i));
+    for (int i = 0; i < count; i++) {
+        bvh_test::Ray ray = rays[static_cast<std::size_t>(i - i % 16)];
+        for (float& d : ray.direction)
+            d *= 1.f + .01f * static_cast<float>(i % 16);
+        ray.direction[static_cast<std::size_t>(i) % 3] *= 1.02f;
+        rays.push_back(ray);
+    }
     return rays;
 }
 

@@ -3,6 +3,7 @@
 #include "host/image/exr.h"
 #include "host/render/path_tracer.h"
 #include "tests/support/every_kind_scene.h"
+#include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -18,8 +19,7 @@ using namespace parhelion::test;
 namespace {
 
 Image image_of(const Scene& scene, const RenderOptions& options) {
-    Progress quiet(Progress::Mode::quiet);
-    RenderResult result = render(scene, choose_device(""), options, quiet);
+    RenderResult result = render_quietly(scene, options);
     CHECK(result.report.non_finite_samples == 0);
     return result.image;
 }

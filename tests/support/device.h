@@ -49,8 +49,9 @@ inline Program test_program(const TestDevice& d, const std::vector<std::string>&
     std::string text;
     for (const std::string& file : files)
         text += fmt::format("#line 1 \"{}\"\n", file) + test_kernel_text(file);
-    return Program(d.context, d.device, ProgramCache({}), files.back(),
-                   kernel_source(files.back(), text), {variant.lanes, features, variant.portable});
+    return Program(d.context, d.device, ProgramCache({}),
+                   program_source(files.back(), kernel_source(files.back(), text),
+                                  {variant.lanes, features, variant.portable}));
 }
 
 template<class T>

@@ -53,7 +53,7 @@ inline std::vector<float> run_on_device(const TestDevice& d, const Program& prog
     Buffer<float> in = device_copy(d, "probe inputs", arrays);
     Buffer<float> out(d.context, "probe outputs",
                       static_cast<std::size_t>(PROBE_OUTPUTS) * probe_count);
-    cl::Kernel kernel = program.kernel();
+    cl::Kernel kernel = program.kernel("probe");
     kernel.setArg(0, in.handle());
     kernel.setArg(1, out.handle());
     kernel.setArg(2, probe_count);

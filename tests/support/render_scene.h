@@ -12,10 +12,10 @@
 namespace parhelion::test {
 
 /// The device of this test process: PARHELION_DEVICE, or the default one.
-inline const Device& test_device() {
-    static const Device device = [] {
+inline RenderDevice& test_device() {
+    static RenderDevice device = [] {
         const char* selector = std::getenv("PARHELION_DEVICE");
-        return choose_device(selector ? selector : "");
+        return RenderDevice(choose_device(selector ? selector : ""));
     }();
     return device;
 }

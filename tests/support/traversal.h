@@ -31,9 +31,9 @@ class Traversal {
 public:
     Traversal(const TestDevice& d, const Variant& variant,
               std::uint64_t features = ~std::uint64_t{0})
-        : d_(d), closest_(d.context, d.device, ProgramCache({}), "intersect.cl",
-                          options(variant, features)),
-          any_(d.context, d.device, ProgramCache({}), "shadow.cl", options(variant, features)) {}
+        : d_(d), program_(d.context, d.device, ProgramCache({}),
+                          program_source({"intersect.cl", "shadow.cl"},
+                                         {variant.lanes, features, variant.portable})) {}
 
     void upload(const Bvh& bvh, int root) {
         nodes_ = Buffer<BvhNode>(d_.context, d_.queue, "nodes", bvh.nodes.data(), bvh.nodes.size());
@@ -54,7 +54,7 @@ public:
             state[path_excluded * s.stride() + i] = std::bit_cast<float>(r.excluded);
         }
         Buffer<float> path_state = device_copy(d_, "path_state", state);
-        run(closest_, s, path_state, path_state, path_state);
+        run("intersect", s, path_state, path_state, path_state);
         state = host_copy(d_, path_state);
         std::vector<TestHit> hits(rays.size());
         for (std::size_t i = 0; i < rays.size(); i++) {
@@ -89,7 +89,7 @@ public:
         Buffer<float> shadow_state = device_copy(d_, "shadow_state", state);
         Buffer<float> results(d_.context, "results", result_field_count * s.stride());
         results.fill_zero(d_.queue);
-        run(any_, s, shadow_state, shadow_state, results);
+        run("shadow", s, shadow_state, shadow_state, results);
         std::vector<float> found = host_copy(d_, results);
         std::vector<bool> blocked(rays.size());
         for (std::size_t i = 0; i < rays.size(); i++) {
@@ -109,11 +109,7 @@ private:
         std::size_t stride() const { return segments * segment; }
     };
 
-    static ProgramOptions options(const Variant& variant, std::uint64_t features) {
-        return {variant.lanes, features, variant.portable};
-    }
-
-    void run(const Program& program, const Sizes& s, const Buffer<float>& path_state,
+    void run(const std::string& name, const Sizes& s, const Buffer<float>& path_state,
              const Buffer<float>& shadow_state, const Buffer<float>& results) const {
         std::vector<int> entries(2 * s.segments);
         for (std::size_t i = 0; i < entries.size(); i++)
@@ -129,7 +125,7 @@ private:
         params.state_stride = params.path_capacity = static_cast<int>(s.stride());
         params.segment_size = params.segment_stride = segment;
         params.root = params.camera_root = root_;
-        cl::Kernel kernel = program.kernel();
+        cl::Kernel kernel = program_.kernel(name);
         cl_uint argument = 0;
 #define SET_BUFFER(type, name) kernel.setArg(argument++, name.handle());
         SCENE_BUFFERS(SET_BUFFER)
@@ -144,7 +140,7 @@ private:
     }
 
     const TestDevice& d_;
-    Program closest_, any_;
+    Program program_;
     Buffer<BvhNode> nodes_;
     Buffer<BvhLeaf> leaves_;
     int root_ = 0;

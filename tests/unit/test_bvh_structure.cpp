@@ -2,8 +2,6 @@
 // stack that suffices.
 #include "tests/unit/test_bvh_shapes.h"
 
-#include "host/cl/embedded_kernels.h"
-
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -129,7 +127,7 @@ private:
     Survey survey_;
 };
 
-Survey check_tree(const Primitives& primitives, int stack_limit = bvh_stack_limit) {
+Survey check_tree(const Primitives& primitives, int stack_limit = BVH_STACK) {
     Bvh bvh;
     BvhStatistics statistics;
     int root = bvh_append(bvh, primitives, &statistics, stack_limit);
@@ -233,15 +231,6 @@ TEST_CASE("A tree of nothing is a node of empty boxes", "[bvh]") {
 }
 
 TEST_CASE("The stack the kernels have suffices for every tree", "[bvh]") {
-    SECTION("the builder's limit is the kernels' limit") {
-        std::span<const EmbeddedFile> files = embedded_kernels();
-        auto traverse = std::find_if(files.begin(), files.end(), [](const EmbeddedFile& f) {
-            return f.path == "device/traverse.h";
-        });
-        REQUIRE(traverse != files.end());
-        std::string definition = "#define STACK_SIZE " + std::to_string(bvh_stack_limit) + "\n";
-        CHECK(traverse->text.find(definition) != std::string_view::npos);
-    }
     SECTION("geometric series") {
         for (float ratio : {1.01f, 1.1f, 2.f, 10.f})
             check_tree(repeated(geometric_series(ratio, 8000), 3));

@@ -1,6 +1,7 @@
-// The cache of compiled programs never changes an image: fresh, warm, damaged in any way, or not
+// The cache of compiled programs never changes a result: fresh, warm, damaged in any way, or not
 // writable.
 #include "host/render/path_tracer.h"
+#include "tests/support/device.h"
 #include "tests/support/every_kind_scene.h"
 
 #include <catch2/catch.hpp>
@@ -51,22 +52,35 @@ private:
     std::optional<std::string> before_;
 };
 
-struct Rendered {
-    std::vector<float> red;
-    int cached = 0;
-    bool operator==(const Rendered&) const = default;
+struct Result {
+    std::vector<float> values;
+    bool cached = false;
 };
 
-Rendered rendered() {
+/// Compiles or reads back a program, runs it and keeps it.
+Result compute(const fs::path& folder) {
+    static TestDevice d;
+    ProgramCache cache(folder);
+    Program program(d.context, d.device, cache, program_source({"self_test.cl"}, {1}));
+    constexpr int count = 256;
+    Buffer<float> out(d.context, "out", 2 * count);
+    cl::Kernel kernel = program.kernel("self_test");
+    kernel.setArg(0, out.handle());
+    kernel.setArg(1, count);
+    d.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(count), cl::NDRange(1));
+    Result r{host_copy(d, out), program.from_cache()};
+    program.store(cache);
+    return r;
+}
+
+std::vector<float> rendered() {
     Scene scene = every_kind_scene();
     scene.film.width = scene.film.crop_width = 16, scene.film.height = scene.film.crop_height = 12;
     scene.sampler.samples_per_pixel = 2;
     Progress quiet(Progress::Mode::quiet);
-    RenderResult result = render(scene, choose_device(""), {}, quiet);
-    Rendered r{find_channel(result.image, "R")->values};
-    for (const StageReport& stage : result.report.stages)
-        r.cached += stage.cached;
-    return r;
+    RenderDevice device(choose_device(""));
+    RenderResult result = render(scene, device, {}, quiet);
+    return find_channel(result.image, "R")->values;
 }
 
 std::string content(const fs::path& file) {
@@ -81,16 +95,15 @@ void overwrite(const fs::path& file, const std::string& text) {
 
 } // namespace
 
-TEST_CASE("The program cache: fresh, warm, damaged, not writable; the image is the same",
-          "[render]") {
+TEST_CASE("The program cache: fresh, warm, damaged, not writable; the results are the same",
+          "[device]") {
     CacheFolder cache;
-    constexpr int stages = static_cast<int>(stage_count);
-    Rendered fresh = rendered();
-    CHECK(fresh.cached == 0);
-    CHECK(cache.files().size() == stage_count);
-    Rendered warm = rendered();
-    CHECK(warm.cached == stages);
-    CHECK(warm.red == fresh.red);
+    Result fresh = compute(cache.path());
+    CHECK_FALSE(fresh.cached);
+    CHECK(cache.files().size() == 1);
+    Result warm = compute(cache.path());
+    CHECK(warm.cached);
+    CHECK(warm.values == fresh.values);
 
     struct Damage {
         const char* name;
@@ -117,24 +130,34 @@ TEST_CASE("The program cache: fresh, warm, damaged, not writable; the image is t
         CAPTURE(damage.name);
         for (const fs::path& file : cache.files())
             overwrite(file, damage.apply(content(file)));
-        Rendered damaged = rendered();
-        CHECK(damaged.cached == 0);
-        CHECK(damaged.red == fresh.red);
-        Rendered repaired = rendered();
-        CHECK(repaired.cached == stages);
-        CHECK(repaired.red == fresh.red);
+        Result damaged = compute(cache.path());
+        CHECK_FALSE(damaged.cached);
+        CHECK(damaged.values == fresh.values);
+        Result repaired = compute(cache.path());
+        CHECK(repaired.cached);
+        CHECK(repaired.values == fresh.values);
     }
 
     // A folder that cannot be made: below a file, so that this holds for root too.
-    CacheFolder::use(cache.files().front() / "below");
-    Rendered without = rendered();
-    CHECK(without.cached == 0);
-    CHECK(without.red == fresh.red);
+    Result without = compute(cache.files().front() / "below");
+    CHECK_FALSE(without.cached);
+    CHECK(without.values == fresh.values);
     // The program's file name is taken by a folder.
-    CacheFolder::use(cache.path());
     for (const fs::path& file : cache.files())
         fs::remove(file), fs::create_directories(file / "in the way");
-    Rendered blocked = rendered();
-    CHECK(blocked.cached == 0);
-    CHECK(blocked.red == fresh.red);
+    Result blocked = compute(cache.path());
+    CHECK_FALSE(blocked.cached);
+    CHECK(blocked.values == fresh.values);
+}
+
+TEST_CASE("A render is the same with a fresh, a warm and a damaged program cache", "[device]") {
+    CacheFolder cache;
+    std::vector<float> fresh = rendered();
+    CHECK(cache.files().size() == program_groups.size());
+    CHECK(rendered() == fresh);
+    for (const fs::path& file : cache.files())
+        overwrite(file, "garbage");
+    CHECK(rendered() == fresh);
+    CacheFolder::use(cache.files().front() / "below");
+    CHECK(rendered() == fresh);
 }

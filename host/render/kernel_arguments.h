@@ -1,0 +1,14 @@
+// Where the kernels' common parameters (KERNEL_PARAMETERS in kernels/device/device.h) stand.
+#pragma once
+
+#include "host/cl/opencl.h"
+#include "host/render/device_scene.h"
+
+namespace parhelion {
+
+#define COUNT_ONE(type, name) +1
+inline constexpr cl_uint buffer_arguments = 0 SCENE_BUFFERS(COUNT_ONE) WORK_BUFFERS(COUNT_ONE);
+inline constexpr cl_uint params_argument = buffer_arguments, wave_argument = buffer_arguments + 1,
+                         depth_argument = buffer_arguments + 2;
+
+} // namespace parhelion
