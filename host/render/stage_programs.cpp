@@ -90,6 +90,7 @@ StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
                                   result.keys.back()));
     }
     std::vector<Compiled> compiled;
+    compiled.reserve(jobs.size());
     for (auto& job : jobs)
         compiled.push_back(job.get());
     for (std::size_t i = 0; i < stage_count; i++) {
