@@ -90,6 +90,7 @@ void check_options(const CompareOptions& options) {
 
 std::vector<Option> limit_options(CompareOptions& c) {
     std::vector<Option> options;
+    options.reserve(limit_kinds.size());
     for (const LimitKind& kind : limit_kinds)
         options.push_back({std::string("--") + kind.name, &(c.*kind.limit), kind.help});
     return options;
