@@ -40,14 +40,14 @@ typedef struct {
     float shear[3];
 } TraversalRay;
 
-/// The values of a packet that a single ray is taken from.
+// The values of a packet that a single ray is taken from.
+// clang-format off
 #define PACKET_WORDS(X)                                                                            \
-    X(origin, 0, r.origin.x)                                                                       \
-    X(origin, 1, r.origin.y)                                                                       \
-    X(origin, 2, r.origin.z)                                                                       \
+    X(origin, 0, r.origin.x) X(origin, 1, r.origin.y) X(origin, 2, r.origin.z)                     \
     X(direction, 0, r.direction.x) X(direction, 1, r.direction.y) X(direction, 2, r.direction.z)   \
-        X(inverse, 0, r.inverse.x) X(inverse, 1, r.inverse.y) X(inverse, 2, r.inverse.z)           \
-            X(shear, 0, r.shear.shear_x) X(shear, 1, r.shear.shear_y) X(shear, 2, r.shear.shear_z)
+    X(inverse, 0, r.inverse.x) X(inverse, 1, r.inverse.y) X(inverse, 2, r.inverse.z)               \
+    X(shear, 0, r.shear.shear_x) X(shear, 1, r.shear.shear_y) X(shear, 2, r.shear.shear_z)
+// clang-format on
 
 typedef struct {
     RealLanes origin[3], direction[3], inverse[3], shear[3];
