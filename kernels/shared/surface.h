@@ -36,7 +36,8 @@ FN SurfaceInteraction surface_triangle(Primitive p, Real b1, Real b2) {
     s.ns = s.ng;
     s.uv = v2(b1, b2);
     s.tangent = splat3(R(0.));
-    if (HAS(anisotropy)) s.tangent = frame_from_normal(s.ng).s;
+    if (HAS(anisotropy))
+        s.tangent = sub3(b, a); // as in Mitsuba 3, where there are no texture coordinates
     return s;
 }
 

@@ -139,6 +139,22 @@ TEST_CASE("Triangles: distance and barycentrics against double, and misses miss"
     CHECK(place.value() <= 1e-3);
 }
 
+TEST_CASE("Triangles: without texture coordinates the shading frame follows the first edge",
+          "[intersect]") {
+    Random random(29);
+    for (int n = 0; n < 1000; n++) {
+        f32::Primitive p{};
+        p.ax = random.between(-1, 1), p.ay = random.between(-1, 1), p.az = random.between(-1, 1);
+        p.bx = p.ax + 1, p.by = p.ay + random.between(-1, 1), p.bz = p.az;
+        p.cx = p.ax, p.cy = p.ay + random.between(-.2, .2), p.cz = p.az + 1;
+        f32::SurfaceInteraction s = f32::surface_triangle(p, .25f, .25f);
+        f32::ShadingFrame frame = f32::surface_frame(s);
+        f64::vec3 edge = f64::normalize3({p.bx - double(p.ax), p.by - double(p.ay), 0});
+        CHECK(f64::length3(f64::sub3(wide(frame.s), edge)) < 1e-6);
+        CHECK(std::fabs(f32::dot3(frame.s, s.ng)) < 1e-6);
+    }
+}
+
 TEST_CASE("Triangles: without area they are never hit and give no NaN", "[intersect]") {
     Random random(63);
     for (int n = 0; n < 100000; n++) {
