@@ -85,7 +85,7 @@ Geometry read_rectangle(const ShapeInput& in) {
     MeshData data;
     data.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     data.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    data.triangles = {{2, 3, 0}, {0, 1, 2}}; // numbered as in Mitsuba 3, for the prim_index AOV
+    data.triangles = {{0, 1, 3}, {2, 3, 1}}; // as in Mitsuba 3, for the prim_index AOV
     return read_flat_mesh(in, std::move(data));
 }
 
