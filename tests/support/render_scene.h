@@ -5,6 +5,8 @@
 #include "host/render/path_tracer.h"
 #include "host/scene/load.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -21,7 +23,7 @@ inline RenderDevice& test_device() {
 }
 
 inline std::string source_file(const std::string& path) {
-    return std::string(PARHELION_SOURCE_DIR) + "/" + path;
+    return fmt::format("{}/{}", PARHELION_SOURCE_DIR, path);
 }
 
 /// Loads with the command's definitions and overrides applied, as `parhelion render` does.
