@@ -16,7 +16,7 @@ namespace {
 std::vector<bvh_test::Ray> rays_for(int count, unsigned seed) {
     bvh_test::Random random(seed);
     std::vector<bvh_test::Ray> rays;
-    rays.reserve(static_cast<std::size_t>(2 * count));
+    rays.reserve(2 * static_cast<std::size_t>(count));
     for (int i = 0; i < count; i++)
         rays.push_back(bvh_test::random_ray(random, i));
     for (int i = 0; i < count; i++) {
