@@ -26,7 +26,7 @@ CommandLine command_line() {
         .footer = "Exit codes: 0 done, 1 images differ (compare), 2 unusable input, 3 device "
                   "failure, 4 internal failure.\n"
                   "Each subcommand has its own --help with examples.",
-        .version = version_text(),
+        .version = version_text,
         .subcommands = {render_subcommand(), compare_subcommand(), info_subcommand(),
                         devices_subcommand()},
     };

@@ -40,7 +40,8 @@ struct Subcommand {
 };
 
 struct CommandLine {
-    std::string summary{}, footer{}, version{};
+    std::string summary{}, footer{};
+    std::function<std::string()> version{}; ///< what --version prints
     std::vector<Subcommand> subcommands{};
 };
 

@@ -1,6 +1,7 @@
 // `parhelion render`: a scene file to an image file.
 #include "host/commands/render.h"
 
+#include "host/clock.h"
 #include "host/error.h"
 #include "host/image/exr.h"
 #include "host/image/output.h"
@@ -13,18 +14,11 @@
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
 
 namespace parhelion {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void add_metadata(const Scene& scene, const RenderReport& report, Image& image) {
     image.metadata.emplace_back("software", fmt::format("parhelion {}", version_number));

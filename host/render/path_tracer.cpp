@@ -1,6 +1,7 @@
 // Rendering a scene on a device: the wavefront loop.
 #include "host/render/path_tracer.h"
 
+#include "host/clock.h"
 #include "host/render/camera_record.h"
 #include "host/render/film_image.h"
 #include "host/render/scene_features.h"
@@ -8,15 +9,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 namespace parhelion {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Edges from the camera after which nothing more is to be seen.
 int longest_path(const Integrator& integrator) {
@@ -85,7 +81,7 @@ void trace_wave(Pipeline& pipeline, const WaveParams& wave, const WorkSizes& siz
 
 void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
                  const RenderParams& params, bool next_event, int work_group, Progress& progress) {
-    auto start = std::chrono::steady_clock::now();
+    auto start = Clock::now();
     int samples = scene.sampler.samples_per_pixel, blocks = sizes.blocks_x * sizes.blocks_y;
     double total = static_cast<double>(samples) * blocks, done = 0.0;
     for (int sample = 0; sample < samples; sample += sizes.samples_per_wave) {
@@ -136,7 +132,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     int lanes = options.lanes > 0 ? options.lanes : device.device.lanes();
 
     progress.start("building the BVH");
-    auto start = std::chrono::steady_clock::now();
+    auto start = Clock::now();
     DeviceScene flat = make_device_scene(scene);
     RenderResult result;
     result.report = start_report(scene, device.device, flat, lanes);
@@ -144,7 +140,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     progress.finish(fmt::format("{} primitives", flat.primitives.size()));
 
     progress.start("compiling kernels");
-    start = std::chrono::steady_clock::now();
+    start = Clock::now();
     std::uint64_t features =
         options.all_features ? flat.features | neutral_features() : flat.features;
     Pipeline pipeline(device, {lanes, options.portable, features, options.split.work_group_size});
@@ -152,7 +148,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     result.report.stages = pipeline.stage_reports();
     progress.finish(result.report.all_cached() ? "cached" : "compiled");
 
-    start = std::chrono::steady_clock::now();
+    start = Clock::now();
     int film_channels =
         result_field_count + aovs.channels + (scene.integrator.second_moment ? 3 : 0);
     WorkSizes sizes =
@@ -165,7 +161,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     result.report.upload_seconds = seconds_since(start);
 
     progress.start("rendering");
-    start = std::chrono::steady_clock::now();
+    start = Clock::now();
     bool next_event = flat.features & feature_bit(feature_next_event);
     trace_image(pipeline, scene, sizes, params, next_event, options.split.work_group_size,
                 progress);

@@ -2,11 +2,11 @@
 #include "host/render/stage_programs.h"
 
 #include "host/cl/buffer.h"
+#include "host/clock.h"
 #include "host/render/kernel_arguments.h"
 
 #include <sys/types.h> // ulong, as the kernels call it
 
-#include <chrono>
 #include <future>
 
 namespace parhelion {
@@ -23,10 +23,6 @@ ProgramSource group_source(ProgramGroup group, const StageOptions& options) {
     return program_source(files, program);
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// PoCL's compiled kernels are for one size of work-group.
 std::string program_key(const Device& device, const ProgramSource& source, int work_group_size) {
     return fmt::format("work-groups of {}\n", work_group_size) + source.key(device);
@@ -39,7 +35,7 @@ struct Compiled {
 };
 
 Compiled compile_group(const RenderDevice& d, const ProgramSource& source, const std::string& key) {
-    auto start = std::chrono::steady_clock::now();
+    auto start = Clock::now();
     if (auto found = d.programs.find(key); found != d.programs.end())
         return {found->second, true, seconds_since(start)};
     if (!d.device.keeps_programs) {
@@ -65,8 +61,8 @@ void launch_empty(const RenderDevice& d, std::vector<cl::Kernel>& kernels, int w
         kernel.setArg(depth_argument, 0);
         d.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(work_group_size),
                                      cl::NDRange(work_group_size));
-        d.queue.finish();
     }
+    d.queue.finish();
 }
 
 StageReport stage_report(std::size_t stage, const StageOptions& options, const Compiled& compiled) {
@@ -98,11 +94,12 @@ StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
         result.kernels.push_back(c.program.kernel(stage_names[i]));
         result.reports.push_back(stage_report(i, options, c));
     }
-    launch_empty(d, result.kernels, options.work_group_size);
-    for (std::size_t g = 0; g < compiled.size(); g++) {
-        d.programs.emplace(result.keys[g], compiled[g].program);
+    bool first_use = false;
+    for (std::size_t g = 0; g < compiled.size(); g++)
+        first_use |= d.programs.emplace(result.keys[g], compiled[g].program).second;
+    if (first_use) launch_empty(d, result.kernels, options.work_group_size);
+    for (std::size_t g = 0; g < compiled.size(); g++)
         if (d.device.keeps_programs && !compiled[g].cached) d.cache.store(result.keys[g], {});
-    }
     return result;
 }
 

@@ -16,8 +16,12 @@ namespace parhelion {
 
 // Compiling has a cost for each program beside that of its kernels, and two can be compiled at
 // once: what changes with every scene's materials is one, the rest the other.
-enum class ProgramGroup { tracing, shading };
-inline constexpr std::array program_groups{ProgramGroup::tracing, ProgramGroup::shading};
+#define PROGRAM_GROUPS(X) X(tracing) X(shading)
+
+#define GROUP_ENUM(name) name,
+enum class ProgramGroup { PROGRAM_GROUPS(GROUP_ENUM) };
+#define GROUP_VALUE(name) ProgramGroup::name,
+inline constexpr std::array program_groups{PROGRAM_GROUPS(GROUP_VALUE)};
 
 #define STAGE_ENUM(name, group) name,
 enum class Stage { STAGES(STAGE_ENUM) };

@@ -102,7 +102,7 @@ FN Intersection packet_primitive(global const BvhLeaf* leaf, int kind, int k, Pa
 /// Takes the hits of one leaf into `hit`; returns the rays that have one.
 FN Mask packet_leaf(global const BvhLeaf* leaf, int kind, PacketRay r, Int excluded, Mask live,
                     int any_hit, PacketHit* hit) {
-    Mask found = live & (live == 0);
+    Mask found = lanesOf(0);
     for (int k = 0; k < BVH_WIDTH; k++) {
         int number = leaf->primitive[k];
         if (number < 0) break;
@@ -166,7 +166,7 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLeaf* 
     for (;;) {
         int next = 0;
         uint next_bits = 0;
-        if ((int)popcount(bits) <= FEW_RAYS) {
+        if (LANES <= FEW_RAYS || (int)popcount(bits) <= FEW_RAYS) {
             uint found = few_rays(nodes, leaves, code, &lanes, excluded, bits, any_hit, &hit);
             if (any_hit) open &= ~found;
         } else if (code < 0) {
