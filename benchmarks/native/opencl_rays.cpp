@@ -1,0 +1,160 @@
+// Our stage kernels `intersect` and `shadow` as a tracer.
+#include "benchmarks/native/opencl_rays.h"
+
+#include "host/render/kernel_arguments.h"
+
+#include <sys/types.h> // ulong, as the kernels call it
+
+#include <algorithm>
+#include <bit>
+
+namespace parhelion::bench {
+namespace {
+
+/// Entry of path i: segments stand apart by their padding.
+std::size_t entry(const WorkSizes& s, std::size_t i) {
+    auto size = static_cast<std::size_t>(s.segment_size);
+    return i / size * static_cast<std::size_t>(s.segment_stride) + i % size;
+}
+
+float as_float(int i) { return std::bit_cast<float>(i); }
+
+} // namespace
+
+OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root) : device_(device) {
+    int lanes = device.device.lanes();
+    ProgramOptions options{lanes, feature_bit(feature_shape_triangle), false};
+    Program program(device.context, device.device, device.cache,
+                    program_source({"intersect.cl", "shadow.cl"}, options));
+    intersect_ = program.kernel("intersect");
+    shadow_ = program.kernel("shadow");
+
+    constexpr int side = 4 * 64; // pixels: with 1 sample they fill the pool
+    static_assert(side * side == wave_rays);
+    sizes_ = work_sizes(side, side, 1, lanes, result_field_count, split_);
+    auto segments = static_cast<std::size_t>(sizes_.segments);
+    work_.path_state = {device.context, "path_state", path_field_count * sizes_.state_stride()};
+    work_.shadow_state = {device.context, "shadow_state",
+                          shadow_field_count * sizes_.state_stride()};
+    work_.results = {device.context, "results",
+                     static_cast<std::size_t>(result_field_count * sizes_.path_capacity)};
+    work_.counts = {device.context, "counts", 2 * segments};
+    work_.statistics = {device.context, "statistics", statistic_count * segments};
+    work_.film = {device.context, "film", 1};
+
+    scene_.bvh_nodes = {device.context, device.queue, "nodes", bvh.nodes.data(), bvh.nodes.size()};
+    scene_.bvh_leaves = {device.context, device.queue, "leaves", bvh.leaves.data(),
+                         bvh.leaves.size()};
+    RenderParams params{};
+    params.path_capacity = sizes_.path_capacity;
+    params.state_stride = static_cast<int>(sizes_.state_stride());
+    params.segment_size = sizes_.segment_size;
+    params.segment_stride = sizes_.segment_stride;
+    params.root = params.camera_root = root;
+    bind(intersect_, params);
+    bind(shadow_, params);
+}
+
+void OpenClTracer::bind(cl::Kernel& kernel, const RenderParams& params) {
+    cl_uint argument = 0;
+#define BIND_SCENE(type, name) kernel.setArg(argument++, scene_.name.handle());
+#define BIND_WORK(type, name) kernel.setArg(argument++, work_.name.handle());
+    SCENE_BUFFERS(BIND_SCENE)
+    WORK_BUFFERS(BIND_WORK)
+    kernel.setArg(params_argument, params);
+    kernel.setArg(wave_argument, WaveParams{});
+}
+
+void OpenClTracer::prepare(std::span<const Ray> rays, int depth, bool any_hit) {
+    any_hit_ = any_hit;
+    count_ = rays.size();
+    work_.statistics.fill_zero(device_.queue);
+    work_.results.fill_zero(device_.queue);
+    std::vector<int> counts(work_.counts.count());
+    for (std::size_t i = 0; i < counts.size(); i++) {
+        std::size_t first = i / 2 * static_cast<std::size_t>(sizes_.segment_size);
+        std::size_t left = count_ > first ? count_ - first : 0;
+        counts[i] = static_cast<int>(std::min(left, static_cast<std::size_t>(sizes_.segment_size)));
+    }
+    device_.queue.enqueueWriteBuffer(work_.counts.handle(), CL_TRUE, 0, work_.counts.bytes(),
+                                     counts.data());
+    if (any_hit)
+        fill_shadows(rays);
+    else
+        fill_paths(rays);
+    (any_hit ? shadow_ : intersect_).setArg(depth_argument, depth);
+}
+
+void OpenClTracer::fill_paths(std::span<const Ray> rays) {
+    state_.resize(work_.path_state.count());
+    std::size_t stride = sizes_.state_stride();
+    for (std::size_t i = 0; i < rays.size(); i++) {
+        const Ray& r = rays[i];
+        float* at = state_.data() + entry(sizes_, i);
+        at[path_ox * stride] = r.origin[0];
+        at[path_oy * stride] = r.origin[1];
+        at[path_oz * stride] = r.origin[2];
+        at[path_dx * stride] = r.direction[0];
+        at[path_dy * stride] = r.direction[1];
+        at[path_dz * stride] = r.direction[2];
+        at[path_t * stride] = r.t_max;
+        at[path_excluded * stride] = as_float(r.excluded);
+        at[path_slot * stride] = as_float(static_cast<int>(i));
+    }
+    device_.queue.enqueueWriteBuffer(work_.path_state.handle(), CL_TRUE, 0,
+                                     work_.path_state.bytes(), state_.data());
+}
+
+/// Every ray brings the radiance (1, 1, 1) to its own slot.
+void OpenClTracer::fill_shadows(std::span<const Ray> rays) {
+    state_.resize(work_.shadow_state.count());
+    std::size_t stride = sizes_.state_stride();
+    for (std::size_t i = 0; i < rays.size(); i++) {
+        const Ray& r = rays[i];
+        float* at = state_.data() + entry(sizes_, i);
+        at[shadow_ox * stride] = r.origin[0];
+        at[shadow_oy * stride] = r.origin[1];
+        at[shadow_oz * stride] = r.origin[2];
+        at[shadow_dx * stride] = r.direction[0];
+        at[shadow_dy * stride] = r.direction[1];
+        at[shadow_dz * stride] = r.direction[2];
+        at[shadow_t * stride] = r.t_max;
+        at[shadow_r * stride] = at[shadow_g * stride] = at[shadow_b * stride] = 1;
+        at[shadow_excluded * stride] = as_float(r.excluded);
+        at[shadow_slot * stride] = as_float(static_cast<int>(i));
+    }
+    device_.queue.enqueueWriteBuffer(work_.shadow_state.handle(), CL_TRUE, 0,
+                                     work_.shadow_state.bytes(), state_.data());
+}
+
+double OpenClTracer::trace() {
+    cl::Event event;
+    device_.queue.enqueueNDRangeKernel(any_hit_ ? shadow_ : intersect_, cl::NullRange,
+                                       cl::NDRange(static_cast<std::size_t>(sizes_.segments)),
+                                       cl::NDRange(split_.work_group_size), nullptr, &event);
+    event.wait();
+    return 1e-9 * static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                                      event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+}
+
+std::vector<Hit> OpenClTracer::hits() {
+    std::vector<Hit> found(count_);
+    if (any_hit_) {
+        std::vector<float> results(work_.results.count());
+        work_.results.read(device_.queue, results.data());
+        const float* r = results.data() + static_cast<std::size_t>(result_r * sizes_.path_capacity);
+        for (std::size_t i = 0; i < count_; i++)
+            found[i] = {0, 0, 0, r[i] == 0 ? 0 : -1};
+        return found;
+    }
+    work_.path_state.read(device_.queue, state_.data());
+    std::size_t stride = sizes_.state_stride();
+    for (std::size_t i = 0; i < count_; i++) {
+        const float* at = state_.data() + entry(sizes_, i);
+        found[i] = {at[path_t * stride], at[path_b1 * stride], at[path_b2 * stride],
+                    std::bit_cast<int>(at[path_primitive * stride])};
+    }
+    return found;
+}
+
+} // namespace parhelion::bench

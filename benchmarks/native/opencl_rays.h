@@ -1,0 +1,39 @@
+// Our stage kernels `intersect` and `shadow` as a tracer.
+#pragma once
+
+#include "benchmarks/native/tracer.h"
+#include "host/bvh/bvh.h"
+#include "host/cl/buffer.h"
+#include "host/render/pipeline.h"
+
+namespace parhelion::bench {
+
+/// Launches the kernels on path states as the renderer leaves them: a wave in segments, one
+/// work-item a segment.
+class OpenClTracer final : public Tracer {
+public:
+    /// Compiles the kernels for triangles alone. `device` must outlive it.
+    OpenClTracer(RenderDevice& device, const Bvh& bvh, int root);
+
+    std::string name() const override { return "Parhelion"; }
+    void prepare(std::span<const Ray> rays, int depth, bool any_hit) override;
+    double trace() override;
+    std::vector<Hit> hits() override;
+
+private:
+    void bind(cl::Kernel& kernel, const RenderParams& params);
+    void fill_paths(std::span<const Ray> rays);
+    void fill_shadows(std::span<const Ray> rays);
+
+    RenderDevice& device_;
+    WorkSplit split_;
+    WorkSizes sizes_;
+    SceneBuffers scene_; ///< a kernel does not keep its arguments alive
+    WorkBuffers work_;
+    cl::Kernel intersect_, shadow_;
+    std::vector<float> state_;
+    std::size_t count_ = 0;
+    bool any_hit_ = false;
+};
+
+} // namespace parhelion::bench
