@@ -3,6 +3,22 @@
 #include "device/lanes_memory.h"
 #include "device/path_state.h"
 #include "device/traverse_packet.h"
+#include "device/traverse_stream.h"
+
+/// Rays that go the same way, LANES at a time.
+FN void intersect_packets(global const BvhNode* nodes, global const BvhLeaf* leaves, int root,
+                          global float* path_state, RenderParams params, int begin, int end) {
+    for (int at = begin; at < end; at += LANES) {
+        PacketRay rays = packet_ray(v3(PATH_LOAD_REAL(ox), PATH_LOAD_REAL(oy), PATH_LOAD_REAL(oz)),
+                                    v3(PATH_LOAD_REAL(dx), PATH_LOAD_REAL(dy), PATH_LOAD_REAL(dz)));
+        PacketHit hit = traverse_packet(nodes, leaves, root, rays, PATH_LOAD_REAL(t),
+                                        PATH_LOAD_INT(excluded), active_lanes(end - at), 0);
+        PATH_STORE_REAL(t, hit.t);
+        PATH_STORE_REAL(b1, hit.b1);
+        PATH_STORE_REAL(b2, hit.b2);
+        PATH_STORE_INT(primitive, sel(hit.primitive == NO_PRIMITIVE, (Int)(-1), hit.primitive));
+    }
+}
 
 /// Reads: path state (ray, t as its end, excluded). Writes: path state (t, b1, b2, primitive).
 kernel void intersect(KERNEL_PARAMETERS) {
@@ -10,16 +26,10 @@ kernel void intersect(KERNEL_PARAMETERS) {
     int base = segment * params.segment_stride;
     int end = base + counts[2 * segment];
     int root = depth == 0 ? params.camera_root : params.root;
-    for (int at = base; at < end; at += LANES) {
-        PacketRay rays = packet_ray(v3(PATH_LOAD_REAL(ox), PATH_LOAD_REAL(oy), PATH_LOAD_REAL(oz)),
-                                    v3(PATH_LOAD_REAL(dx), PATH_LOAD_REAL(dy), PATH_LOAD_REAL(dz)));
-        PacketHit hit = traverse_packet(bvh_nodes, bvh_leaves, root, rays, PATH_LOAD_REAL(t),
-                                        PATH_LOAD_INT(excluded), active_lanes(end - at), 0);
-        PATH_STORE_REAL(t, hit.t);
-        PATH_STORE_REAL(b1, hit.b1);
-        PATH_STORE_REAL(b2, hit.b2);
-        PATH_STORE_INT(primitive, hit.primitive);
-    }
+    if (HAS(ray_streams) && depth > 0)
+        traverse_stream(bvh_nodes, bvh_leaves, root, path_state, params.state_stride, base, end, 0);
+    else
+        intersect_packets(bvh_nodes, bvh_leaves, root, path_state, params, base, end);
     if (depth > 0)
         statistics[statistic_count * segment + statistic_bounce_rays] += (ulong)(end - base);
 }

@@ -13,7 +13,7 @@ namespace parhelion::bench {
 class OpenClTracer final : public Tracer {
 public:
     /// Compiles the kernels for triangles alone. `device` must outlive it.
-    OpenClTracer(RenderDevice& device, const Bvh& bvh, int root);
+    OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::size_t primitives);
 
     std::string name() const override { return "Parhelion"; }
     void prepare(std::span<const Ray> rays, int depth, bool any_hit) override;

@@ -120,7 +120,7 @@ nlohmann::json measure_scene(TriangleScene scene, int resolution, int repeats,
                world.scene.name, world.primitives.size(), threads, world.statistics.build_seconds,
                world.usual.commit_seconds());
     RenderDevice device(choose_device(""));
-    OpenClTracer ours(device, world.bvh, world.root);
+    OpenClTracer ours(device, world.bvh, world.root, world.primitives.size());
     auto reference = embree_tracers(world.robust, threads, false);
     auto sets = make_ray_sets(world.scene, world.primitives, resolution, *reference.front());
     nlohmann::json rows = nlohmann::json::array();

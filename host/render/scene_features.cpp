@@ -79,6 +79,18 @@ void add_shapes(const Scene& scene, bool uv, FeatureSet& set) {
     }
 }
 
+std::size_t primitive_count(const Shape& shape) {
+    const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+    return mesh ? mesh->triangles.size() : 1;
+}
+
+void add_traversal(const Scene& scene, FeatureSet& set) {
+    std::size_t primitives = 0;
+    for (const Shape& shape : scene.shapes)
+        primitives += primitive_count(shape);
+    set.mask |= traversal_features(primitives);
+}
+
 void add_emitter(const PointEmitter&, FeatureSet& set) { set.add(feature_emitter_point); }
 void add_emitter(const SpotEmitter&, FeatureSet& set) { set.add(feature_emitter_spot); }
 void add_emitter(const DirectionalEmitter&, FeatureSet& set) {
@@ -116,6 +128,7 @@ std::uint64_t scene_features(const Scene& scene) {
     const Integrator& integrator = scene.integrator;
     add_materials(scene, set);
     add_shapes(scene, reads_uv(scene, set), set);
+    add_traversal(scene, set);
     for (const Emitter& e : scene.emitters)
         std::visit([&](const auto& x) { add_emitter(x, set); }, e);
     set.add_if(scene.camera.aperture_radius > 0.0, feature_thin_lens);
@@ -129,6 +142,12 @@ std::uint64_t scene_features(const Scene& scene) {
     return set.mask;
 }
 
+std::uint64_t traversal_features(std::size_t primitives) {
+    // Measured: packets win while the tree (50 bytes a primitive) stays near the caches' size.
+    constexpr std::size_t in_cache = 500'000;
+    return primitives > in_cache ? feature_bit(feature_ray_streams) : 0;
+}
+
 std::uint64_t neutral_features() {
 #define MATERIAL_BIT(name, sides) | feature_bit(feature_bsdf_##name)
 #define SHAPE_BIT(name) | feature_bit(feature_shape_##name)
@@ -137,7 +156,7 @@ std::uint64_t neutral_features() {
     return 0 MATERIALS(MATERIAL_BIT) GEOMETRIES(SHAPE_BIT) |
            (all_emitters & ~feature_bit(feature_emitter_constant)) |
            feature_bit(feature_back_materials) | feature_bit(feature_ggx) |
-           feature_bit(feature_beckmann);
+           feature_bit(feature_beckmann) | feature_bit(feature_ray_streams);
 }
 
 std::vector<std::string> feature_names(std::uint64_t mask) {

@@ -17,4 +17,7 @@ std::uint64_t scene_features(const Scene& scene);
 /// material, emitter and shape, and what looks for vertex normals, back materials and so on.
 std::uint64_t neutral_features();
 
+/// How rays are best traced among so many primitives.
+std::uint64_t traversal_features(std::size_t primitives);
+
 } // namespace parhelion

@@ -37,16 +37,17 @@ constexpr std::uint64_t stage_features(Stage stage) {
 #define SHAPE_BIT(name) | feature_bit(feature_shape_##name)
     constexpr std::uint64_t shapes = 0 GEOMETRIES(SHAPE_BIT);
     constexpr std::uint64_t film = feature_bit(feature_reconstruction_filter);
+    constexpr std::uint64_t streams = feature_bit(feature_ray_streams);
     switch (stage) {
     case Stage::generate:
         return film | feature_bit(feature_thin_lens);
     case Stage::intersect:
     case Stage::shadow:
-        return shapes;
+        return shapes | streams;
     case Stage::accumulate:
         return feature_bit(feature_moments);
     case Stage::shade:
-        return ~(film | feature_bit(feature_thin_lens) | feature_bit(feature_moments));
+        return ~(film | streams | feature_bit(feature_thin_lens) | feature_bit(feature_moments));
     }
     return 0;
 }

@@ -39,7 +39,7 @@
 #define SHADOW_FIELDS(X)                                                                           \
     X(float, ox) X(float, oy) X(float, oz) X(float, dx) X(float, dy) X(float, dz) X(float, t)      \
     X(float, r) X(float, g) X(float, b)                                                            \
-    X(int, slot) X(int, excluded)
+    X(int, slot) X(int, excluded) X(int, blocked)
 
 // What a path slot gathers; the AOV channels follow.
 #define RESULT_FIELDS(X) X(float, r) X(float, g) X(float, b) X(float, alpha) X(float, weight)

@@ -19,15 +19,45 @@ typedef struct {
     Real word[16];
 } Record;
 
+// Storing the lanes whose bits are set one behind the other. Where lanes are many, up to LANES
+// entries behind `p` are overwritten.
+#if LANES == 1
+#define PACKED_STORE(name, memory, type, Lanes, Union, compress)                                   \
+    FN void name(memory type* p, Lanes v, uint bits) {                                             \
+        if (bits) *p = v;                                                                          \
+    }
+#elif defined(LANE_AVX512)
+// vstore16() would be four stores.
+typedef Real RealAnywhere __attribute__((aligned(4)));
+typedef Int IntAnywhere __attribute__((aligned(4)));
+#define PACKED_STORE(name, memory, type, Lanes, Union, compress)                                   \
+    FN void name(memory type* p, Lanes v, uint bits) {                                             \
+        *(memory Lanes##Anywhere*)p = compress(v, (Lanes)0, bits);                                 \
+    }
+#if LANES == 16
+#define COMPRESS_REAL(v, rest, bits) __builtin_ia32_compresssf512_mask(v, rest, (ushort)(bits))
+#define COMPRESS_INT(v, rest, bits) __builtin_ia32_compresssi512_mask(v, rest, (ushort)(bits))
+#else
+#define COMPRESS_REAL(v, rest, bits) __builtin_ia32_compresssf256_mask(v, rest, (uchar)(bits))
+#define COMPRESS_INT(v, rest, bits) __builtin_ia32_compresssi256_mask(v, rest, (uchar)(bits))
+#endif
+#else
+#define PACKED_STORE(name, memory, type, Lanes, Union, compress)                                   \
+    FN void name(memory type* p, Lanes v, uint bits) {                                             \
+        Union x;                                                                                   \
+        x.lanes = v;                                                                               \
+        for (int n = 0; bits; bits &= bits - 1)                                                    \
+            p[n++] = x.at[lowest_bit(bits)];                                                       \
+    }
+#endif
+PACKED_STORE(store_packed, global, float, Real, RealLanes, COMPRESS_REAL)
+PACKED_STORE(store_packed_int, global, int, Int, IntLanes, COMPRESS_INT)
+PACKED_STORE(store_packed_private, private, float, Real, RealLanes, COMPRESS_REAL)
+PACKED_STORE(store_packed_private_int, private, int, Int, IntLanes, COMPRESS_INT)
+
 #if LANES == 1
 // -------------------------------------------------------------------------------------------------
 // one lane
-FN void store_packed(global float* p, Real v, uint bits) {
-    if (bits) *p = v;
-}
-FN void store_packed_int(global int* p, Int v, uint bits) {
-    if (bits) *p = v;
-}
 FN Record load_record(global const float* records, Int index) {
     Record r;
     global const float* p = records + 16 * (long)index;
@@ -43,39 +73,6 @@ FN void scatter_add(global float* p, Int index, Real v, uint bits) {
 #else
 // -----------------------------------------------------------------------------------------------
 // many lanes
-#ifdef LANE_AVX512
-#if LANES == 16
-FN void store_packed(global float* p, Real v, uint bits) {
-    vstore16(__builtin_ia32_compresssf512_mask(v, (Real)0.f, (ushort)bits), 0, p);
-}
-FN void store_packed_int(global int* p, Int v, uint bits) {
-    vstore16(__builtin_ia32_compresssi512_mask(v, (Int)0, (ushort)bits), 0, p);
-}
-#else
-FN void store_packed(global float* p, Real v, uint bits) {
-    vstore8(__builtin_ia32_compresssf256_mask(v, (Real)0.f, (uchar)bits), 0, p);
-}
-FN void store_packed_int(global int* p, Int v, uint bits) {
-    vstore8(__builtin_ia32_compresssi256_mask(v, (Int)0, (uchar)bits), 0, p);
-}
-#endif
-#else
-FN void store_packed(global float* p, Real v, uint bits) {
-    RealLanes x;
-    x.lanes = v;
-    int n = 0;
-    for (int k = 0; k < LANES; k++)
-        if ((bits >> k) & 1u) p[n++] = x.at[k];
-}
-FN void store_packed_int(global int* p, Int v, uint bits) {
-    IntLanes x;
-    x.lanes = v;
-    int n = 0;
-    for (int k = 0; k < LANES; k++)
-        if ((bits >> k) & 1u) p[n++] = x.at[k];
-}
-#endif
-
 FN Real gather(global const float* p, Int index) {
     IntLanes i;
     RealLanes r;

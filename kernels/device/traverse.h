@@ -1,5 +1,5 @@
-// One ray through the wide BVH: LANES children or primitives at a time; closest hit and any hit are
-// one body.
+// One ray's walk through the wide BVH, a step at a time: LANES children or primitives each; closest
+// hit and any hit are one body.
 //
 // Boxes are widened and triangles are watertight, so no hit is lost; of two hits at the same
 // distance the lower primitive number wins, so the answer does not depend on the order of the walk.
@@ -8,10 +8,103 @@
 
 #define LANE_GROUPS (BVH_WIDTH / LANES)
 
+// Nothing hit: a number above all others, so that of two hits at one distance the lower wins.
+#define NO_PRIMITIVE 0x7fffffff
+
+// A child code that is neither a node nor a leaf: the walk is over.
+#define WALK_ENDS ((int)0x80000000)
+
+// Entries of a walk's stack: the marker at its bottom, one child more than wait at once for any
+// hit, and what a packed store writes beyond its end.
+#define WALK_STACK (BVH_STACK + 2 * LANES)
+
 typedef struct {
-    float t, b1, b2;
-    int primitive; // -1: nothing
-} RayHit;
+    TraversalRay ray;
+    float t, b1, b2; // the closest hit so far, or the end of the ray
+    int primitive;   // NO_PRIMITIVE: nothing
+    int excluded;    // the primitive that the ray may not hit
+    int top;         // entries on the walk's stack
+} RayWalk;
+
+/// Children that wait, and how far away each of them begins.
+typedef struct {
+    int child[WALK_STACK];
+    float entry[WALK_STACK];
+} WalkStack;
+
+FN void walk_start(RayWalk* w, WalkStack* stack, TraversalRay ray, float t_max, int excluded) {
+    w->ray = ray;
+    w->t = t_max, w->b1 = 0.f, w->b2 = 0.f;
+    w->primitive = NO_PRIMITIVE;
+    w->excluded = excluded;
+    w->top = 1;
+    stack->child[0] = WALK_ENDS;
+    stack->entry[0] = -INFINITY;
+}
+
+/// The next child that waits and is not beyond the hit.
+FN int walk_pop(RayWalk* w, const WalkStack* stack, int any_hit) {
+    do
+        w->top--;
+    while (!any_hit && stack->entry[w->top] > w->t * (float)HIT_WIDENING);
+    return stack->child[w->top];
+}
+
+FN void walk_push(RayWalk* w, WalkStack* stack, Int child, Real entry, uint bits, int any_hit) {
+    store_packed_private_int(stack->child + w->top, child, bits);
+    if (!any_hit) store_packed_private(stack->entry + w->top, entry, bits);
+    w->top += popcount(bits);
+}
+
+FN BoxOverlap node_overlap(global const BvhNode* node, int group, const TraversalRay* ray,
+                           float t_max) {
+#define BOX_PLANE(a, side, row)                                                                    \
+    fmaR(LOAD_REAL(node->bounds[row] + group * LANES), (Real)ray->inverse[a],                      \
+         (Real)ray->side##_offset[a])
+#define BOX_NEAR(a) BOX_PLANE(a, near, ray->near_row[a])
+#define BOX_FAR(a) BOX_PLANE(a, far, ray->near_row[a] ^ 1)
+    return box_overlap(BOX_NEAR(0), BOX_NEAR(1), BOX_NEAR(2), BOX_FAR(0), BOX_FAR(1), BOX_FAR(2),
+                       (Real)t_max);
+}
+
+/// Of the lanes in `mask`, the one with the smallest value, up to its last 4 bits, and those bits
+/// replaced by the lane's number. Values are not negative.
+FN int smallest_lane_key(Mask mask, Real value) {
+    return lowestLaneInt(sel(mask, (asInt(value) & ~(LANES - 1)) | LANE_INDEX, (Int)NO_PRIMITIVE));
+}
+
+/// Lets the children of a node that the ray meets wait, but for the nearest, which is returned
+/// (WALK_ENDS: none is met). They wait in no particular order; for any hit all of them do. No
+/// branch depends on the ray where one group is all: of several walks, none waits for another's
+/// answer.
+FN int walk_node(RayWalk* w, WalkStack* stack, global const BvhNode* node, int any_hit) {
+    int next = WALK_ENDS;
+    float next_entry = 0.f;
+    for (int group = 0; group < LANE_GROUPS; group++) {
+        BoxOverlap box = node_overlap(node, group, &w->ray, w->t * (float)HIT_WIDENING);
+        uint bits = maskBits(box.meets);
+        global const int* child = node->child + group * LANES;
+        if (any_hit) {
+            walk_push(w, stack, LOAD_INT(child), box.entry, bits, any_hit);
+            continue;
+        }
+        int key = smallest_lane_key(box.meets, box.entry), lane = key & (LANES - 1);
+        walk_push(w, stack, LOAD_INT(child), box.entry, bits & ~(1u << lane), any_hit);
+        int nearest = bits ? child[lane] : WALK_ENDS;
+        float nearest_entry = as_float(key & ~(LANES - 1));
+        if (next == WALK_ENDS) {
+            next = nearest, next_entry = nearest_entry;
+        } else if (nearest != WALK_ENDS) {
+            int nearer = nearest_entry < next_entry;
+            stack->child[w->top] = nearer ? next : nearest;
+            stack->entry[w->top] = nearer ? next_entry : nearest_entry;
+            w->top++;
+            next = nearer ? nearest : next;
+            next_entry = nearer ? nearest_entry : next_entry;
+        }
+    }
+    return next;
+}
 
 #define LEAF_ROW(row) LOAD_REAL(leaf->rows[row] + group * LANES)
 
@@ -54,106 +147,55 @@ FN Intersection leaf_group(global const BvhLeaf* leaf, int kind, int group, cons
     return leaf_triangles(leaf, group, ray, t_max);
 }
 
-#define LANE_DECLARE(name, v)                                                                      \
-    RealLanes name##_lanes;                                                                        \
-    name##_lanes.lanes = v;                                                                        \
-    const float* name = name##_lanes.at
+/// Which primitives of a leaf the ray hits before its closest hit, and where.
+typedef struct {
+    uint bits;
+    RealLanes t[LANE_GROUPS], b1[LANE_GROUPS], b2[LANE_GROUPS];
+} LeafHits;
 
-/// Takes the hits of one leaf into `hit`; returns whether there was one.
-FN int leaf_intersect(global const BvhLeaf* leaf, int kind, const TraversalRay* ray, int excluded,
-                      int any_hit, RayHit* hit) {
-    int found = 0;
+FN void leaf_hits(const RayWalk* w, global const BvhLeaf* leaf, int kind, LeafHits* hits) {
+    hits->bits = 0;
     for (int group = 0; group < LANE_GROUPS; group++) {
-        Intersection i = leaf_group(leaf, kind, group, ray, hit->t);
-        Int primitive = LOAD_INT(leaf->primitive + group * LANES);
-        uint bits = maskBits(i.hit & (primitive >= 0) & (primitive != excluded));
-        if (!bits) continue;
-        found = 1;
-        if (any_hit) break;
-        LANE_DECLARE(t, i.t);
-        LANE_DECLARE(b1, i.b1);
-        LANE_DECLARE(b2, i.b2);
-        global const int* number = leaf->primitive + group * LANES;
-        while (bits) {
-            int k = lowest_bit(bits);
-            bits &= bits - 1;
-            if (t[k] < hit->t ||
-                (t[k] == hit->t && (hit->primitive < 0 || number[k] < hit->primitive))) {
-                hit->t = t[k];
-                hit->b1 = b1[k];
-                hit->b2 = b2[k];
-                hit->primitive = number[k];
-            }
+        Intersection i = leaf_group(leaf, kind, group, &w->ray, w->t);
+        Int number = LOAD_INT(leaf->primitive + group * LANES);
+        Mask counts = i.hit & (number >= 0) & (number != (Int)w->excluded);
+        hits->bits |= maskBits(counts) << (group * LANES);
+        hits->t[group].lanes = i.t;
+        hits->b1[group].lanes = i.b1;
+        hits->b2[group].lanes = i.b2;
+    }
+}
+
+/// Takes the hits of a leaf; whether the walk is over: for any hit the first one ends it.
+FN int walk_take(RayWalk* w, global const BvhLeaf* leaf, const LeafHits* hits, int any_hit) {
+    if (any_hit) {
+        w->primitive = hits->bits ? 0 : NO_PRIMITIVE;
+        return hits->bits != 0;
+    }
+    for (uint bits = hits->bits; bits; bits &= bits - 1) {
+        int k = lowest_bit(bits), group = k / LANES, lane = k % LANES, number = leaf->primitive[k];
+        float t = hits->t[group].at[lane];
+        if (t < w->t || (t == w->t && number < w->primitive)) {
+            w->t = t, w->b1 = hits->b1[group].at[lane], w->b2 = hits->b2[group].at[lane];
+            w->primitive = number;
         }
     }
-    return found;
+    return 0;
 }
 
-FN Mask node_overlap(global const BvhNode* node, int group, const TraversalRay* ray, float t_max,
-                     Real* entry) {
-#define BOX_ROW(row, a)                                                                            \
-    ((LOAD_REAL(node->bounds[row] + group * LANES) - (Real)ray->origin[a]) * (Real)ray->inverse[a])
-    Real nx = BOX_ROW(ray->near_row[0], 0), fx = BOX_ROW(ray->far_row[0], 0);
-    Real ny = BOX_ROW(ray->near_row[1], 1), fy = BOX_ROW(ray->far_row[1], 1);
-    Real nz = BOX_ROW(ray->near_row[2], 2), fz = BOX_ROW(ray->far_row[2], 2);
-    *entry = maxR(maxR(nx, ny), nz);
-    return box_overlap(nx, ny, nz, fx, fy, fz, (Real)t_max);
-}
-
-/// Walks the tree from `root` (a child code as in BvhNode); hits beyond t_max do not count. With
-/// any_hit the first hit found ends the walk and only `primitive` (0 or -1) is meaningful.
-FN RayHit traverse(global const BvhNode* nodes, global const BvhLeaf* leaves, int root,
-                   const TraversalRay* ray, float t_max, int excluded, int any_hit) {
-    RayHit hit;
-    hit.t = t_max, hit.b1 = 0.f, hit.b2 = 0.f, hit.primitive = -1;
-    int stack[BVH_STACK];
-    float stack_entry[BVH_STACK];
-    int top = 0, current = root;
-    for (;;) {
-        int next = 0, have_next = 0;
-        if (current >= 0) {
-            global const BvhNode* node = nodes + current;
-            float next_entry = 0.f;
-            for (int group = 0; group < LANE_GROUPS; group++) {
-                Real entry;
-                uint bits = maskBits(node_overlap(node, group, ray, hit.t, &entry));
-                global const int* child = node->child + group * LANES;
-                LANE_DECLARE(near, entry);
-                // The nearest child is next; the others wait in no particular order.
-                while (bits) {
-                    int k = lowest_bit(bits);
-                    bits &= bits - 1;
-                    int c = child[k];
-                    float e = near[k];
-                    if (!have_next) {
-                        next = c, next_entry = e, have_next = 1;
-                    } else {
-                        int nearer = !any_hit && e < next_entry;
-                        stack[top] = nearer ? next : c;
-                        stack_entry[top] = nearer ? next_entry : e;
-                        top++;
-                        next = nearer ? c : next;
-                        next_entry = nearer ? e : next_entry;
-                    }
-                }
-            }
+/// The whole walk of one ray through the tree below `code`.
+FN void walk_alone(RayWalk* w, WalkStack* stack, global const BvhNode* nodes,
+                   global const BvhLeaf* leaves, int code, int any_hit) {
+    LeafHits hits;
+    while (code != WALK_ENDS) {
+        int next = WALK_ENDS;
+        if (code >= 0) {
+            next = walk_node(w, stack, nodes + code, any_hit);
         } else {
-            int code = ~current;
-            int found =
-                leaf_intersect(leaves + (code >> 2), code & 3, ray, excluded, any_hit, &hit);
-            if (any_hit && found) {
-                hit.primitive = 0;
-                return hit;
-            }
+            global const BvhLeaf* leaf = leaves + (~code >> 2);
+            leaf_hits(w, leaf, ~code & 3, &hits);
+            if (walk_take(w, leaf, &hits, any_hit)) return;
         }
-        if (have_next) {
-            current = next;
-            continue;
-        }
-        do {
-            if (top == 0) return hit;
-            top--;
-        } while (stack_entry[top] > hit.t * (float)BOX_WIDENING);
-        current = stack[top];
+        code = next == WALK_ENDS ? walk_pop(w, stack, any_hit) : next;
     }
 }

@@ -6,19 +6,21 @@
 
 // Where no more than these are left of a packet, each goes on alone: a packet pays for rays that go
 // the same way, or through a small tree.
-#define FEW_RAYS 4
+#define FEW_RAYS 6
 
 typedef struct {
     Real t, b1, b2;
-    Int primitive; // -1: nothing
+    Int primitive; // NO_PRIMITIVE: nothing
 } PacketHit;
 
-/// Bounds of a packet's origins and inverse directions; `coherent` if all rays meet the same planes
-/// of every box first.
+/// What all rays of a packet have in common: bounds of their origins and inverse directions, and
+/// whether they meet the same planes of every box first, and have their largest axis in common.
 typedef struct {
-    int coherent;
-    int near_row[3], far_row[3];
+    int coherent, one_axis;
+    int near_row[3];
+    int axis[3]; // x, y, z after renaming, if one_axis
     float near_origin[3], far_origin[3], near_inverse[3], far_inverse[3];
+    float slack[3]; // of the distance, where a ray is parallel to the axis: see ray_slab
 } PacketBounds;
 
 FN PacketBounds packet_bounds(PacketRay r, Mask active) {
@@ -27,101 +29,128 @@ FN PacketBounds packet_bounds(PacketRay r, Mask active) {
     uint all = maskBits(active);
 #define BOUND_AXIS(a, axis)                                                                        \
     {                                                                                              \
-        uint negative = maskBits(r.negative_##axis & active);                                      \
-        float low = lowestLane(sel(active, r.inverse.axis, (Real)INFINITY));                       \
-        float high = highestLane(sel(active, r.inverse.axis, (Real)-INFINITY));                    \
+        uint negative = maskBits((r.axis.inverse < 0.f) & active);                                 \
+        float low = lowestLane(sel(active, r.axis.inverse, (Real)INFINITY));                       \
+        float high = highestLane(sel(active, r.axis.inverse, (Real)-INFINITY));                    \
         float first = lowestLane(sel(active, r.origin.axis, (Real)INFINITY));                      \
         float last = highestLane(sel(active, r.origin.axis, (Real)-INFINITY));                     \
         int down = negative != 0;                                                                  \
         b.coherent &= negative == 0 || negative == all;                                            \
         b.near_row[a] = 2 * a + down;                                                              \
-        b.far_row[a] = 2 * a + 1 - down;                                                           \
         b.near_inverse[a] = down ? high : low;                                                     \
         b.far_inverse[a] = down ? low : high;                                                      \
         b.near_origin[a] = down ? first : last;                                                    \
         b.far_origin[a] = down ? last : first;                                                     \
+        b.slack[a] = low <= -PARALLEL_INVERSE || high >= PARALLEL_INVERSE ? PARALLEL_MARGIN : 0.f; \
     }
     BOUND_AXIS(0, x)
     BOUND_AXIS(1, y)
     BOUND_AXIS(2, z)
+    uint x = maskBits(r.z_is_x & active), y = maskBits(r.z_is_y & active);
+    b.one_axis = x == all || y == all || (x | y) == 0;
+    int z = x ? 0 : y ? 1 : 2;
+    b.axis[0] = z == 2 ? 0 : z + 1;
+    b.axis[1] = z == 0 ? 2 : z - 1;
+    b.axis[2] = z;
     return b;
 }
 
-/// Children that some ray of a coherent packet may meet: no ray's way through a box begins before
-/// or ends after that of the bounds.
-FN uint packet_cull(global const BvhNode* node, const PacketBounds* b) {
+/// Children that some ray of a coherent packet may meet, and where the first ray may enter them: no
+/// ray's way through a box begins before or ends after that of the bounds.
+FN uint packet_cull(global const BvhNode* node, const PacketBounds* b, RealLanes* entry) {
     uint candidates = 0;
-#define CULL_ROW(side, a)                                                                          \
-    ((LOAD_REAL(node->bounds[b->side##_row[a]] + group * LANES) - (Real)b->side##_origin[a]) *     \
-     (Real)b->side##_inverse[a])
-    for (int group = 0; group < LANE_GROUPS; group++)
-        candidates |= maskBits(box_overlap(CULL_ROW(near, 0), CULL_ROW(near, 1), CULL_ROW(near, 2),
-                                           CULL_ROW(far, 0), CULL_ROW(far, 1), CULL_ROW(far, 2),
-                                           (Real)INFINITY))
-                      << (group * LANES);
+#define CULL_PLANE(flip, side, a, margin)                                                          \
+    fmaR(LOAD_REAL(node->bounds[b->near_row[a] ^ flip] + group * LANES) -                          \
+             (Real)b->side##_origin[a],                                                            \
+         (Real)b->side##_inverse[a], (Real)(margin))
+#define CULL_NEAR(a) CULL_PLANE(0, near, a, -b->slack[a])
+#define CULL_FAR(a) CULL_PLANE(1, far, a, b->slack[a])
+    for (int group = 0; group < LANE_GROUPS; group++) {
+        BoxOverlap box = box_overlap(CULL_NEAR(0), CULL_NEAR(1), CULL_NEAR(2), CULL_FAR(0),
+                                     CULL_FAR(1), CULL_FAR(2), (Real)INFINITY);
+        candidates |= maskBits(box.meets) << (group * LANES);
+        entry[group].lanes = box.entry;
+    }
     return candidates;
 }
 
-/// Children that are there at all.
-FN uint present_children(global const BvhNode* node) {
+/// Children that are there at all; nothing is known about where rays enter them.
+FN uint present_children(global const BvhNode* node, RealLanes* entry) {
     uint present = 0;
-    for (int group = 0; group < LANE_GROUPS; group++)
+    for (int group = 0; group < LANE_GROUPS; group++) {
         present |= maskBits(LOAD_REAL(node->bounds[0] + group * LANES) < (Real)INFINITY)
                    << (group * LANES);
+        entry[group].lanes = R(0.);
+    }
     return present;
 }
 
-/// Which rays meet child k before t; `entry` where they do.
-FN Mask packet_overlap(global const BvhNode* node, int k, PacketRay r, Real t, Real* entry) {
-#define CHILD_PLANE(row, axis) (((Real)node->bounds[row][k] - r.origin.axis) * r.inverse.axis)
-    Real x0 = CHILD_PLANE(0, x), x1 = CHILD_PLANE(1, x);
-    Real y0 = CHILD_PLANE(2, y), y1 = CHILD_PLANE(3, y);
-    Real z0 = CHILD_PLANE(4, z), z1 = CHILD_PLANE(5, z);
-    Real nx = sel(r.negative_x, x1, x0), fx = sel(r.negative_x, x0, x1);
-    Real ny = sel(r.negative_y, y1, y0), fy = sel(r.negative_y, y0, y1);
-    Real nz = sel(r.negative_z, z1, z0), fz = sel(r.negative_z, z0, z1);
-    *entry = maxR(nx, maxR(ny, maxR(nz, R(0.))));
-    return box_overlap(nx, ny, nz, fx, fy, fz, t);
+#define CHILD_BOX(X, Y, Z)                                                                         \
+    box_overlap(fmaR(X(0, 0, x), r.x.inverse, r.x.near_offset),                                    \
+                fmaR(Y(1, 0, y), r.y.inverse, r.y.near_offset),                                    \
+                fmaR(Z(2, 0, z), r.z.inverse, r.z.near_offset),                                    \
+                fmaR(X(0, 1, x), r.x.inverse, r.x.far_offset),                                     \
+                fmaR(Y(1, 1, y), r.y.inverse, r.y.far_offset),                                     \
+                fmaR(Z(2, 1, z), r.z.inverse, r.z.far_offset), t)                                  \
+        .meets
+
+/// Which rays meet child k before t.
+FN Mask packet_overlap(global const BvhNode* node, int k, PacketRay r, const PacketBounds* bounds,
+                       Real t) {
+#define COMMON_PLANE(a, far, axis) (Real) node->bounds[bounds->near_row[a] ^ far][k]
+#define OWN_PLANE(a, far, axis)                                                                    \
+    sel(r.axis.inverse < 0.f, (Real)node->bounds[2 * a + 1 - far][k],                              \
+        (Real)node->bounds[2 * a + far][k])
+    if (bounds->coherent) return CHILD_BOX(COMMON_PLANE, COMMON_PLANE, COMMON_PLANE);
+    return CHILD_BOX(OWN_PLANE, OWN_PLANE, OWN_PLANE);
 }
 
-#define CORNER(k, first)                                                                           \
-    v3((Real)leaf->rows[first][k], (Real)leaf->rows[first + 1][k], (Real)leaf->rows[first + 2][k])
+#define CORNER(first, x, y, z)                                                                     \
+    v3((Real)leaf->rows[first + x][k], (Real)leaf->rows[first + y][k],                             \
+       (Real)leaf->rows[first + z][k])
 
-FN Intersection packet_primitive(global const BvhLeaf* leaf, int kind, int k, PacketRay r, Real t) {
+FN Intersection packet_primitive(global const BvhLeaf* leaf, int kind, int k, PacketRay r,
+                                 const PacketBounds* bounds, Real t) {
     if (HAS(shape_sphere) && kind == geometry_sphere)
-        return intersect_sphere(sub3(r.origin, CORNER(k, 0)), r.direction, (Real)leaf->rows[3][k],
-                                t);
+        return intersect_sphere(sub3(r.origin, CORNER(0, 0, 1, 2)), r.direction,
+                                (Real)leaf->rows[3][k], t);
     if (HAS(shape_disk) && kind == geometry_disk)
-        return intersect_disk(sub3(CORNER(k, 0), r.origin), r.direction, CORNER(k, 3), CORNER(k, 6),
-                              t);
-    return intersect_triangle(rename_axes(r, sub3(CORNER(k, 0), r.origin)),
-                              rename_axes(r, sub3(CORNER(k, 3), r.origin)),
-                              rename_axes(r, sub3(CORNER(k, 6), r.origin)), r.shear, t);
+        return intersect_disk(sub3(CORNER(0, 0, 1, 2), r.origin), r.direction, CORNER(3, 0, 1, 2),
+                              CORNER(6, 0, 1, 2), t);
+    vec3 a, b, c, o;
+    if (bounds->one_axis) {
+        int x = bounds->axis[0], y = bounds->axis[1], z = bounds->axis[2];
+        o = rename_axes(r, r.origin);
+        a = sub3(CORNER(0, x, y, z), o);
+        b = sub3(CORNER(3, x, y, z), o);
+        c = sub3(CORNER(6, x, y, z), o);
+    } else {
+        a = rename_axes(r, sub3(CORNER(0, 0, 1, 2), r.origin));
+        b = rename_axes(r, sub3(CORNER(3, 0, 1, 2), r.origin));
+        c = rename_axes(r, sub3(CORNER(6, 0, 1, 2), r.origin));
+    }
+    return intersect_triangle(a, b, c, r.shear, t);
 }
 
 /// Takes the hits of one leaf into `hit`; returns the rays that have one.
-FN Mask packet_leaf(global const BvhLeaf* leaf, int kind, PacketRay r, Int excluded, Mask live,
-                    int any_hit, PacketHit* hit) {
+FN Mask packet_leaf(global const BvhLeaf* leaf, int kind, PacketRay r, const PacketBounds* bounds,
+                    Int excluded, Mask live, int any_hit, PacketHit* hit) {
     Mask found = lanesOf(0);
     for (int k = 0; k < BVH_WIDTH; k++) {
         int number = leaf->primitive[k];
         if (number < 0) break;
-        Intersection i = packet_primitive(leaf, kind, k, r, hit->t);
+        Intersection i = packet_primitive(leaf, kind, k, r, bounds, hit->t);
         Mask hits = i.hit & live & (excluded != number);
-        if (!someLane(hits)) continue;
-        found = found | hits;
         if (any_hit) {
-            live = live & !found;
-            if (!someLane(live)) break;
-            continue;
+            found = found | hits;
+        } else {
+            // No branch: among as many rays there is nearly always one that hits.
+            Mask closer = hits & ((i.t < hit->t) | ((Int)number < hit->primitive));
+            hit->t = sel(closer, i.t, hit->t);
+            hit->b1 = sel(closer, i.b1, hit->b1);
+            hit->b2 = sel(closer, i.b2, hit->b2);
+            hit->primitive = sel(closer, (Int)number, hit->primitive);
         }
-        Mask closer =
-            hits & ((i.t < hit->t) |
-                    ((i.t == hit->t) & ((hit->primitive < 0) | ((Int)number < hit->primitive))));
-        hit->t = sel(closer, i.t, hit->t);
-        hit->b1 = sel(closer, i.b1, hit->b1);
-        hit->b2 = sel(closer, i.b2, hit->b2);
-        hit->primitive = sel(closer, (Int)number, hit->primitive);
     }
     return found;
 }
@@ -134,28 +163,26 @@ FN uint few_rays(global const BvhNode* nodes, global const BvhLeaf* leaves, int 
     t.lanes = hit->t, b1.lanes = hit->b1, b2.lanes = hit->b2;
     primitive.lanes = hit->primitive, not_hit.lanes = excluded;
     uint found = 0;
-    while (bits) {
+    RayWalk w;
+    WalkStack stack;
+    for (; bits; bits &= bits - 1) {
         int k = lowest_bit(bits);
-        bits &= bits - 1;
-        TraversalRay ray = single_ray(lanes, k);
-        RayHit h = traverse(nodes, leaves, code, &ray, t.at[k], not_hit.at[k], any_hit);
-        if (h.primitive < 0) continue;
-        found |= 1u << k;
-        if (h.t < t.at[k] || primitive.at[k] < 0 || h.primitive < primitive.at[k]) {
-            t.at[k] = h.t, b1.at[k] = h.b1, b2.at[k] = h.b2;
-            primitive.at[k] = h.primitive;
-        }
+        walk_start(&w, &stack, single_ray(lanes, k), t.at[k], not_hit.at[k]);
+        w.b1 = b1.at[k], w.b2 = b2.at[k], w.primitive = primitive.at[k];
+        walk_alone(&w, &stack, nodes, leaves, code, any_hit);
+        found |= (uint)(w.primitive != NO_PRIMITIVE) << k;
+        t.at[k] = w.t, b1.at[k] = w.b1, b2.at[k] = w.b2, primitive.at[k] = w.primitive;
     }
     hit->t = t.lanes, hit->b1 = b1.lanes, hit->b2 = b2.lanes;
     hit->primitive = primitive.lanes;
     return found;
 }
 
-/// As traverse(), for the active rays of a packet.
+/// The closest hits of the active rays of a packet, or with any_hit whether each of them hits.
 FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLeaf* leaves, int root,
                              PacketRay ray, Real t_max, Int excluded, Mask active, int any_hit) {
     PacketHit hit;
-    hit.t = t_max, hit.b1 = R(0.), hit.b2 = R(0.), hit.primitive = (Int)(-1);
+    hit.t = t_max, hit.b1 = R(0.), hit.b2 = R(0.), hit.primitive = (Int)NO_PRIMITIVE;
     PacketBounds bounds = packet_bounds(ray, active);
     PacketLanes lanes = packet_lanes(ray);
     int stack[BVH_STACK];
@@ -170,27 +197,26 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLeaf* 
             uint found = few_rays(nodes, leaves, code, &lanes, excluded, bits, any_hit, &hit);
             if (any_hit) open &= ~found;
         } else if (code < 0) {
-            Mask found = packet_leaf(leaves + (~code >> 2), ~code & 3, ray, excluded, lanesOf(bits),
-                                     any_hit, &hit);
+            Mask found = packet_leaf(leaves + (~code >> 2), ~code & 3, ray, &bounds, excluded,
+                                     lanesOf(bits), any_hit, &hit);
             if (any_hit) {
                 hit.primitive = sel(found, (Int)0, hit.primitive);
                 open &= ~maskBits(found);
             }
         } else {
             global const BvhNode* node = nodes + code;
-            Mask live = lanesOf(bits);
-            uint candidates = bounds.coherent ? packet_cull(node, &bounds) : present_children(node);
+            RealLanes entry[LANE_GROUPS];
+            uint candidates =
+                bounds.coherent ? packet_cull(node, &bounds, entry) : present_children(node, entry);
+            Real limit = hit.t * R(HIT_WIDENING);
             float next_entry = 0.f;
             // The nearest child is next; the others wait in no particular order.
-            while (candidates) {
+            for (; candidates; candidates &= candidates - 1) {
                 int k = lowest_bit(candidates);
-                candidates &= candidates - 1;
-                Real entry;
-                Mask meets = packet_overlap(node, k, ray, hit.t, &entry) & live;
-                uint child_bits = maskBits(meets);
+                uint child_bits = maskBits(packet_overlap(node, k, ray, &bounds, limit)) & bits;
                 if (!child_bits) continue;
                 int child = node->child[k];
-                float e = any_hit ? 0.f : lowestLane(sel(meets, entry, (Real)INFINITY));
+                float e = entry[k / LANES].at[k % LANES];
                 if (!next_bits) {
                     next = child, next_bits = child_bits, next_entry = e;
                     continue;
@@ -210,7 +236,7 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLeaf* 
             top--;
             next = stack[top];
             next_bits = stack_bits[top] & open;
-            if (!any_hit) next_bits &= maskBits((Real)stack_entry[top] <= hit.t * R(BOX_WIDENING));
+            if (!any_hit) next_bits &= maskBits((Real)stack_entry[top] <= hit.t * R(HIT_WIDENING));
         }
         code = next, bits = next_bits;
     }

@@ -25,6 +25,7 @@
 
 // What a scene can need beside its materials, emitters and shapes.
 #define OTHER_FEATURES(X)                                                                          \
+    X(ray_streams)        /* so many primitives that rays soon part ways */                        \
     X(vertex_normals)     /* some mesh is smooth */                                                \
     X(vertex_uvs)         /* some mesh has texture coordinates, and something reads them */         \
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \

@@ -23,6 +23,12 @@
 #define LANE_AVX512
 #endif
 
+#if defined(__x86_64__) && defined(__clang__) && !defined(PORTABLE)
+#define PREFETCH(p) __builtin_prefetch((const void*)(ulong)(p))
+#else
+#define PREFETCH(p)
+#endif
+
 #if LANES == 1
 typedef float Real;
 typedef int Int;
@@ -38,6 +44,7 @@ typedef int Mask; // 0 or 1
 #define LANE_INDEX 0
 #define lanesOf(bits) ((Mask)(bits))
 #define lowestLane(v) (v)
+#define lowestLaneInt(v) (v)
 #define highestLane(v) (v)
 #else
 #define LANE_CAT_(a, b) a##b
@@ -99,6 +106,12 @@ FN float lowestLane(Real v) {
     float4 x = LANE_LESS(w.lo, w.hi);
     float2 y = LANE_LESS(x.lo, x.hi);
     return LANE_LESS(y.x, y.y);
+}
+FN int lowestLaneInt(Int v) {
+    int8 w = LANE_FOLD(v, min);
+    int4 x = min(w.lo, w.hi);
+    int2 y = min(x.lo, x.hi);
+    return min(y.x, y.y);
 }
 FN float highestLane(Real v) {
     float8 w = LANE_FOLD(v, LANE_MORE);

@@ -24,16 +24,18 @@ struct TestRay {
 struct TestHit {
     float t, b1, b2;
     int primitive; ///< -1: nothing
+
+    bool operator==(const TestHit&) const = default;
 };
 
-/// A tree on the device, and the two kernels that walk it.
+/// A tree on the device, and the two kernels that walk it: all rays go through packets and through
+/// streams, whose answers must be the same bits.
 class Traversal {
 public:
     Traversal(const TestDevice& d, const Variant& variant,
               std::uint64_t features = ~std::uint64_t{0})
-        : d_(d), program_(d.context, d.device, ProgramCache({}),
-                          program_source({"intersect.cl", "shadow.cl"},
-                                         {variant.lanes, features, variant.portable})) {}
+        : d_(d), packets_(compile(d, variant, features & ~feature_bit(feature_ray_streams))),
+          streams_(compile(d, variant, features | feature_bit(feature_ray_streams))) {}
 
     void upload(const Bvh& bvh, int root) {
         nodes_ = Buffer<BvhNode>(d_.context, d_.queue, "nodes", bvh.nodes.data(), bvh.nodes.size());
@@ -43,6 +45,28 @@ public:
     }
 
     std::vector<TestHit> closest(std::span<const TestRay> rays) const {
+        return same_answers(closest(packets_, rays), closest(streams_, rays));
+    }
+
+    /// Whether something is in the way: ray i carries the radiance (1, 2, 4) to slot i.
+    std::vector<bool> occluded(std::span<const TestRay> rays) const {
+        return same_answers(occluded(packets_, rays), occluded(streams_, rays));
+    }
+
+private:
+    static Program compile(const TestDevice& d, const Variant& variant, std::uint64_t features) {
+        return {d.context, d.device, ProgramCache({}),
+                program_source({"intersect.cl", "shadow.cl"},
+                               {variant.lanes, features, variant.portable})};
+    }
+
+    template<class Answers>
+    static Answers same_answers(Answers packets, const Answers& streams) {
+        if (packets != streams) throw std::runtime_error("packets and streams differ");
+        return packets;
+    }
+
+    std::vector<TestHit> closest(const Program& program, std::span<const TestRay> rays) const {
         Sizes s(rays.size());
         std::vector<float> state(path_field_count * s.stride());
         for (std::size_t i = 0; i < rays.size(); i++) {
@@ -54,7 +78,7 @@ public:
             state[path_excluded * s.stride() + i] = std::bit_cast<float>(r.excluded);
         }
         Buffer<float> path_state = device_copy(d_, "path_state", state);
-        run("intersect", s, path_state, path_state, path_state);
+        run(program.kernel("intersect"), s, path_state, path_state, path_state);
         state = host_copy(d_, path_state);
         std::vector<TestHit> hits(rays.size());
         for (std::size_t i = 0; i < rays.size(); i++) {
@@ -65,8 +89,7 @@ public:
         return hits;
     }
 
-    /// Whether something is in the way: ray i carries the radiance (1, 2, 4) to slot i.
-    std::vector<bool> occluded(std::span<const TestRay> rays) const {
+    std::vector<bool> occluded(const Program& program, std::span<const TestRay> rays) const {
         Sizes s(rays.size());
         std::vector<float> state(shadow_field_count * s.stride());
         for (std::size_t i = 0; i < rays.size(); i++) {
@@ -89,7 +112,7 @@ public:
         Buffer<float> shadow_state = device_copy(d_, "shadow_state", state);
         Buffer<float> results(d_.context, "results", result_field_count * s.stride());
         results.fill_zero(d_.queue);
-        run("shadow", s, shadow_state, shadow_state, results);
+        run(program.kernel("shadow"), s, shadow_state, shadow_state, results);
         std::vector<float> found = host_copy(d_, results);
         std::vector<bool> blocked(rays.size());
         for (std::size_t i = 0; i < rays.size(); i++) {
@@ -101,7 +124,6 @@ public:
         return blocked;
     }
 
-private:
     static constexpr int segment = 2048;
     struct Sizes {
         std::size_t rays, segments;
@@ -109,7 +131,7 @@ private:
         std::size_t stride() const { return segments * segment; }
     };
 
-    void run(const std::string& name, const Sizes& s, const Buffer<float>& path_state,
+    void run(cl::Kernel kernel, const Sizes& s, const Buffer<float>& path_state,
              const Buffer<float>& shadow_state, const Buffer<float>& results) const {
         std::vector<int> entries(2 * s.segments);
         for (std::size_t i = 0; i < entries.size(); i++)
@@ -125,7 +147,6 @@ private:
         params.state_stride = params.path_capacity = static_cast<int>(s.stride());
         params.segment_size = params.segment_stride = segment;
         params.root = params.camera_root = root_;
-        cl::Kernel kernel = program_.kernel(name);
         cl_uint argument = 0;
 #define SET_BUFFER(type, name) kernel.setArg(argument++, name.handle());
         SCENE_BUFFERS(SET_BUFFER)
@@ -140,7 +161,7 @@ private:
     }
 
     const TestDevice& d_;
-    Program program_;
+    Program packets_, streams_;
     Buffer<BvhNode> nodes_;
     Buffer<BvhLeaf> leaves_;
     int root_ = 0;

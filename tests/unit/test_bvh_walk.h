@@ -28,16 +28,17 @@ struct Hit {
 /// A ray made ready, as traversal_ray in kernels/device/traverse.h does.
 struct ReadyRay {
     Ray ray;
-    Vector inverse;
+    std::array<f32::RaySlab, 3> slab;
     std::array<int, 3> axis;
     f32::RayShear shear;
 
     explicit ReadyRay(const Ray& r) : ray(r) {
         Vector size;
-        for (int a = 0; a < 3; a++) {
-            inverse[a] = 1.f / r.direction[a];
+        for (int a = 0; a < 3; a++)
             size[a] = std::fabs(r.direction[a]);
-        }
+        float largest = std::max({size[0], size[1], size[2]});
+        for (int a = 0; a < 3; a++)
+            slab[a] = f32::ray_slab(r.origin[a], r.direction[a], largest);
         int z = size[0] > size[1] ? (size[0] > size[2] ? 0 : 2) : (size[1] > size[2] ? 1 : 2);
         axis = {(z + 1) % 3, (z + 2) % 3, z};
         shear = {r.direction[axis[0]] / r.direction[z], r.direction[axis[1]] / r.direction[z],
@@ -100,12 +101,15 @@ inline std::array<float, 9> leaf_column(const BvhLeaf& leaf, int place) {
 inline bool meets_box(const BvhNode& node, int k, const ReadyRay& r, float t_max, float& entry) {
     Vector near, far;
     for (int a = 0; a < 3; a++) {
-        bool negative = r.inverse[a] < 0.f;
-        near[a] = (node.bounds[2 * a + negative][k] - r.ray.origin[a]) * r.inverse[a];
-        far[a] = (node.bounds[2 * a + 1 - negative][k] - r.ray.origin[a]) * r.inverse[a];
+        const f32::RaySlab& slab = r.slab[a];
+        bool negative = slab.inverse < 0.f;
+        near[a] = std::fma(node.bounds[2 * a + negative][k], slab.inverse, slab.near_offset);
+        far[a] = std::fma(node.bounds[2 * a + 1 - negative][k], slab.inverse, slab.far_offset);
     }
-    entry = f32::maxR(f32::maxR(near[0], near[1]), near[2]);
-    return f32::box_overlap(near[0], near[1], near[2], far[0], far[1], far[2], t_max);
+    f32::BoxOverlap box =
+        f32::box_overlap(near[0], near[1], near[2], far[0], far[1], far[2], t_max);
+    entry = box.entry;
+    return box.meets;
 }
 
 /// Closest hit below `root`; `peak` becomes the most entries that ever waited. A child is skipped
@@ -121,7 +125,7 @@ inline Hit walk(const Bvh& bvh, int root, const Ray& ray, std::size_t* peak = nu
     while (!stack.empty()) {
         Entry current = stack.back();
         stack.pop_back();
-        if (current.entry > hit.t * float(BOX_WIDENING)) continue;
+        if (current.entry > hit.t * float(HIT_WIDENING)) continue;
         if (current.child < 0) {
             int code = ~current.child;
             const BvhLeaf& leaf = bvh.leaves[std::size_t(code >> 2)];
@@ -135,7 +139,7 @@ inline Hit walk(const Bvh& bvh, int root, const Ray& ray, std::size_t* peak = nu
         std::size_t first = stack.size();
         for (int k = 0; k < BVH_WIDTH; k++) {
             float entry;
-            if (!meets_box(node, k, ready, hit.t, entry)) continue;
+            if (!meets_box(node, k, ready, hit.t * float(HIT_WIDENING), entry)) continue;
             stack.push_back({node.child[k], entry});
             bool nearest = stack.size() == first + 1 || entry < stack[stack.size() - 2].entry;
             if (!nearest) std::swap(stack.back(), stack[stack.size() - 2]);

@@ -30,7 +30,12 @@ FN ProbeOut probe_intersect_disk(ProbeIn i) {
         intersect_disk(in3(i, 0), in3(i, 3), in3(i, 6), in3(i, 9), LANE_INFINITY));
 }
 FN ProbeOut probe_box_overlap(ProbeIn i) {
-    return out1(mask_word(box_overlap(i.w[0], i.w[1], i.w[2], i.w[3], i.w[4], i.w[5], i.w[6])));
+    BoxOverlap b = box_overlap(i.w[0], i.w[1], i.w[2], i.w[3], i.w[4], i.w[5], i.w[6]);
+    return put1(out1(mask_word(b.meets)), 1, b.entry);
+}
+FN ProbeOut probe_ray_slab(ProbeIn i) {
+    RaySlab s = ray_slab(i.w[0], i.w[1], absR(i.w[2]));
+    return put2(out1(s.inverse), 1, v2(s.near_offset, s.far_offset));
 }
 FN ProbeOut probe_leave_surface(ProbeIn i) {
     return out3(
@@ -72,7 +77,8 @@ FN ProbeOut probe_camera_ray(ProbeIn i) {
     PROBE(intersect_triangle_through_corners, "pppu", 4)                                           \
     PROBE(intersect_sphere, "pps", 4)                                                              \
     PROBE(intersect_disk, "pppp", 4)                                                               \
-    PROBE(box_overlap, "rrrrrrr", 1) PROBE(leave_surface, "ppdd", 3)                               \
+    PROBE(box_overlap, "rrrrrrr", 2) PROBE(ray_slab, "rrr", 3)                                     \
+        PROBE(leave_surface, "ppdd", 3)                                                            \
         PROBE(surface_triangle, "guu", 23) PROBE(surface_vertex_attributes, "gvuu", 23)            \
             PROBE(surface_sphere, "gp", 23) PROBE(surface_disk, "guu", 23)                         \
                 PROBE(camera_ray, "kuuuu", 7)

@@ -1,0 +1,145 @@
+// A stream of rays through the wide BVH: several walks take turns, a step each, so that one waits
+// for memory while the others work.
+//
+// The answers are those of a packet, to the bit. Streams pay where rays go different ways through a
+// tree that is larger than the caches.
+
+#include "device/traverse.h"
+
+// Walks under way at once.
+#if LANES == 1
+#define STREAM_WALKS 1
+#else
+#ifndef STREAM_WALKS
+#define STREAM_WALKS 16
+#endif
+#endif
+
+/// A run of rays in the path state (closest hit) or the shadow state (any hit).
+typedef struct {
+    global float* state;
+    long stride;       // floats between two fields
+    int next, end;     // entries that have not been taken
+    PacketLanes lanes; // LANES of them made ready, from a multiple of LANES on
+    int any_hit;
+} RayStream;
+
+#define STREAM_FIELD(s, name)                                                                      \
+    ((s)->state + (long)((s)->any_hit ? (int)shadow_##name : (int)path_##name) * (s)->stride)
+
+FN PacketRay stream_packet(const RayStream* s, int at) {
+#define STREAM_LANES(name) LOAD_REAL(STREAM_FIELD(s, name) + at)
+    return packet_ray(v3(STREAM_LANES(ox), STREAM_LANES(oy), STREAM_LANES(oz)),
+                      v3(STREAM_LANES(dx), STREAM_LANES(dy), STREAM_LANES(dz)));
+}
+
+/// Starts a walk with the next ray; its entry is returned.
+FN int stream_take(RayStream* s, int begin, RayWalk* w, WalkStack* stack) {
+    int entry = s->next++, lane = (entry - begin) % LANES;
+    if (lane == 0) s->lanes = packet_lanes(stream_packet(s, entry));
+    walk_start(w, stack, single_ray(&s->lanes, lane), STREAM_FIELD(s, t)[entry],
+               ((global const int*)STREAM_FIELD(s, excluded))[entry]);
+    return entry;
+}
+
+FN void stream_answer(const RayStream* s, int entry, const RayWalk* w) {
+    int hit = w->primitive != NO_PRIMITIVE;
+    if (s->any_hit) {
+        ((global int*)s->state)[(long)shadow_blocked * s->stride + entry] = hit;
+        return;
+    }
+    s->state[(long)path_t * s->stride + entry] = w->t;
+    s->state[(long)path_b1 * s->stride + entry] = w->b1;
+    s->state[(long)path_b2 * s->stride + entry] = w->b2;
+    ((global int*)s->state)[(long)path_primitive * s->stride + entry] = hit ? w->primitive : -1;
+}
+
+/// Fetches what a walk visits next ahead of its turn.
+FN void stream_prefetch(global const BvhNode* nodes, global const BvhLeaf* leaves, int code) {
+    global const char* p = code >= 0 ? (global const char*)(nodes + code)
+                                     : (global const char*)(leaves + (~code >> 2));
+    PREFETCH(p);
+    PREFETCH(p + 64);
+    PREFETCH(p + 128);
+    PREFETCH(p + 192);
+    PREFETCH(p + 256);
+    PREFETCH(p + 320);
+    PREFETCH(p + 384);
+    if (code < 0) {
+        PREFETCH(p + 448);
+        PREFETCH(p + 512);
+        PREFETCH(p + 576);
+    }
+}
+
+/// Walks under way, and who of them stands at a node and who at a leaf.
+typedef struct {
+    RayWalk walk[STREAM_WALKS];
+    WalkStack stack[STREAM_WALKS];
+    int entry[STREAM_WALKS], code[STREAM_WALKS];
+    uchar at_node[STREAM_WALKS + 1], at_leaf[STREAM_WALKS + 1];
+    int node_count, leaf_count;
+} StreamWalks;
+
+/// Sends walk i to its next node or leaf; a walk that is over (WALK_ENDS) answers, and the next ray
+/// takes its place.
+FN void stream_send(StreamWalks* s, RayStream* rays, int begin, int i, int next, int root,
+                    global const BvhNode* nodes, global const BvhLeaf* leaves) {
+    if (next == WALK_ENDS) {
+        stream_answer(rays, s->entry[i], &s->walk[i]);
+        if (rays->next == rays->end) return;
+        s->entry[i] = stream_take(rays, begin, &s->walk[i], &s->stack[i]);
+        next = root;
+    }
+    stream_prefetch(nodes, leaves, next);
+    s->code[i] = next;
+    s->at_node[s->node_count] = s->at_leaf[s->leaf_count] = (uchar)i;
+    s->node_count += next >= 0;
+    s->leaf_count += next < 0;
+}
+
+/// Traces the entries [begin, end) of a state; begin is aligned to LANES.
+///
+/// Each round moves all walks at nodes, then all at leaves, and each of these in two passes: the
+/// first has no branch that depends on a ray, so the processor overlaps the walks; the second
+/// decides from what the first has stored, so that a branch guessed wrongly costs little.
+FN void traverse_stream(global const BvhNode* nodes, global const BvhLeaf* leaves, int root,
+                        global float* state, long stride, int begin, int end, int any_hit) {
+    RayStream rays;
+    rays.state = state, rays.stride = stride;
+    rays.next = begin, rays.end = end, rays.any_hit = any_hit;
+    StreamWalks s;
+    s.node_count = s.leaf_count = 0;
+    for (int i = 0; i < STREAM_WALKS && rays.next < end; i++) {
+        s.entry[i] = stream_take(&rays, begin, &s.walk[i], &s.stack[i]);
+        stream_send(&s, &rays, begin, i, root, root, nodes, leaves);
+    }
+    int next[STREAM_WALKS];
+    LeafHits hits[STREAM_WALKS];
+    while (s.node_count + s.leaf_count > 0) {
+        // Writing the list of this round trails reading that of the one before.
+        int count = s.node_count;
+        for (int k = 0; k < count; k++) {
+            int i = s.at_node[k];
+            next[k] = walk_node(&s.walk[i], &s.stack[i], nodes + s.code[i], any_hit);
+        }
+        s.node_count = 0;
+        for (int k = 0; k < count; k++) {
+            int i = s.at_node[k], code = next[k];
+            if (code == WALK_ENDS) code = walk_pop(&s.walk[i], &s.stack[i], any_hit);
+            stream_send(&s, &rays, begin, i, code, root, nodes, leaves);
+        }
+        count = s.leaf_count;
+        for (int k = 0; k < count; k++) {
+            int i = s.at_leaf[k], code = ~s.code[i];
+            leaf_hits(&s.walk[i], leaves + (code >> 2), code & 3, &hits[k]);
+        }
+        s.leaf_count = 0;
+        for (int k = 0; k < count; k++) {
+            int i = s.at_leaf[k];
+            int over = walk_take(&s.walk[i], leaves + (~s.code[i] >> 2), &hits[k], any_hit);
+            int code = over ? WALK_ENDS : walk_pop(&s.walk[i], &s.stack[i], any_hit);
+            stream_send(&s, &rays, begin, i, code, root, nodes, leaves);
+        }
+    }
+}
