@@ -22,11 +22,11 @@ float as_float(int i) { return std::bit_cast<float>(i); }
 
 } // namespace
 
-OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root,
-                           std::size_t primitives)
+OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::size_t primitives)
     : device_(device) {
     int lanes = device.device.lanes();
-    ProgramOptions options{lanes, feature_bit(feature_shape_triangle) | traversal_features(primitives), false};
+    ProgramOptions options{
+        lanes, feature_bit(feature_shape_triangle) | traversal_features(primitives), false};
     Program program(device.context, device.device, device.cache,
                     program_source({"intersect.cl", "shadow.cl"}, options));
     intersect_ = program.kernel("intersect");
