@@ -2,9 +2,7 @@
 #pragma once
 
 #include "host/bvh/bounds.h"
-
-#include <memory>
-#include <vector>
+#include "host/large_vector.h"
 
 namespace parhelion {
 
@@ -18,15 +16,14 @@ struct BinaryNode {
 };
 
 struct BinaryTree {
-    std::vector<Reference> references;
-    std::unique_ptr<BinaryNode[]> nodes; ///< the root first; the order of the others depends on the
-                                         ///< threads, the tree does not
-    int node_count;
+    LargeVector<Reference> references;
+    LargeVector<BinaryNode> nodes; ///< the root first; the order of the others depends on the
+                                   ///< threads, the tree does not
 };
 
 enum class SplitMethod { surface_area, halves };
 
 /// A tree over at least one reference; a node without children fits a leaf of the wide tree.
-BinaryTree build_binary_tree(std::vector<Reference> references, SplitMethod method);
+BinaryTree build_binary_tree(LargeVector<Reference> references, SplitMethod method);
 
 } // namespace parhelion

@@ -13,9 +13,9 @@ namespace parhelion {
 namespace {
 
 template<class NumberOf>
-std::vector<Reference> make_references(std::span<const PrimitiveRecord> primitives,
+LargeVector<Reference> make_references(std::span<const PrimitiveRecord> primitives,
                                        std::size_t count, const NumberOf& number_of) {
-    std::vector<Reference> references(count);
+    LargeVector<Reference> references(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         int number = number_of(i);
         references[i] = make_reference(primitives[std::size_t(number)], number);
@@ -34,19 +34,15 @@ struct Built {
 bool append_tree(Bvh& bvh, std::span<const PrimitiveRecord> primitives, BinaryTree& tree,
                  int stack_limit, bool may_refuse, Built& built) {
     CollapsePlan plan = plan_collapse(tree);
-    std::size_t nodes_before = bvh.nodes.size();
-    WideTree wide = append_nodes(bvh, tree, plan);
-    if (may_refuse && wide.stack_entries > stack_limit) {
-        bvh.nodes.resize(nodes_before);
-        return false;
-    }
-    append_leaves(bvh, tree, wide.leaves, primitives);
-    built = {wide.root, plan.sah_cost, wide.depth, wide.stack_entries};
+    WideTree wide = measure_wide_tree(tree, plan);
+    if (may_refuse && wide.extent.stack_entries > stack_limit) return false;
+    int root = append_wide_tree(bvh, tree, plan, wide, primitives);
+    built = {root, plan.sah_cost, wide.extent.depth, wide.extent.stack_entries};
     return true;
 }
 
 Built append_references(Bvh& bvh, std::span<const PrimitiveRecord> primitives,
-                        std::vector<Reference> references, int stack_limit) {
+                        LargeVector<Reference> references, int stack_limit) {
     if (references.empty()) return {append_empty_node(bvh)};
     Built built;
     BinaryTree tree = build_binary_tree(std::move(references), SplitMethod::surface_area);

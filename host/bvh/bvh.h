@@ -2,47 +2,18 @@
 // (layout: BvhNode, BvhLeaf).
 #pragma once
 
+#include "host/large_vector.h"
 #include "kernels/shared/types.h"
 
 #include <cstddef>
-#include <new>
 #include <span>
-#include <vector>
 
 namespace parhelion {
 
-/// Allocates whole cache lines, and leaves the elements of resize() uninitialised: the threads that
-/// fill them touch them first.
-template<class T>
-struct CacheLineAllocator {
-    // NOLINTNEXTLINE(readability-identifier-naming): the allocator requirements name it
-    using value_type = T;
-    static constexpr std::align_val_t alignment{64};
-
-    CacheLineAllocator() = default;
-    template<class U>
-    CacheLineAllocator(const CacheLineAllocator<U>&) {}
-
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
-    void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
-    template<class U>
-    void construct(U* p) {
-        ::new (static_cast<void*>(p)) U;
-    }
-    template<class U, class... Arguments>
-    void construct(U* p, Arguments&&... arguments) {
-        ::new (static_cast<void*>(p)) U(static_cast<Arguments&&>(arguments)...);
-    }
-    bool operator==(const CacheLineAllocator&) const { return true; }
-};
-
-template<class T>
-using CacheLineVector = std::vector<T, CacheLineAllocator<T>>;
-
 /// One or several trees, which share the two arrays.
 struct Bvh {
-    CacheLineVector<BvhNode> nodes;
-    CacheLineVector<BvhLeaf> leaves;
+    LargeVector<BvhNode> nodes;
+    LargeVector<BvhLeaf> leaves;
 };
 
 /// What one call of bvh_append made.

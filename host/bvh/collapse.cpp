@@ -83,9 +83,8 @@ private:
 } // namespace
 
 CollapsePlan plan_collapse(const BinaryTree& tree) {
-    CollapsePlan plan{
-        std::unique_ptr<CollapseChoice[]>(new CollapseChoice[std::size_t(tree.node_count)]), 0};
-    plan.sah_cost = Planner(tree, plan.choices.get()).plan(0)[1];
+    CollapsePlan plan{LargeVector<CollapseChoice>(tree.nodes.size()), 0};
+    plan.sah_cost = Planner(tree, plan.choices.data()).plan(0)[1];
     return plan;
 }
 

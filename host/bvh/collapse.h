@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 
 namespace parhelion {
 
@@ -19,8 +18,8 @@ struct CollapseChoice {
 };
 
 struct CollapsePlan {
-    std::unique_ptr<CollapseChoice[]> choices; ///< for each binary node
-    double sah_cost;                           ///< of the wide tree, in visits of a node
+    LargeVector<CollapseChoice> choices; ///< for each binary node
+    double sah_cost;                     ///< of the wide tree, in visits of a node
 };
 
 /// Dynamic programming over the binary tree (Pinto 2010, "Adaptive collapsing on bounding volume

@@ -3,6 +3,7 @@
 
 #include "host/bvh/bounds.h"
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -11,26 +12,37 @@ namespace parhelion {
 /// A range longer than this is worked on by several threads.
 inline constexpr std::size_t parallel_range = 1 << 15;
 
-/// The box around all references.
-Box range_box(std::span<const Reference> range);
+/// What a division needs to know of a range of references.
+struct RangeBounds {
+    Box box;     ///< around the references
+    Box centres; ///< around their half_centre()
+};
+
+RangeBounds range_bounds(std::span<const Reference> range);
 
 /// Are all references of one geometry kind?
 bool one_kind(std::span<const Reference> range);
 
-// Each of these reorders the range (at least two references) so that its first part belongs to the
-// one child and the rest to the other, and returns the length of the first part, which is neither 0
-// nor all. The order is the same for any number of threads.
+/// The first part of a range and the rest; neither is empty.
+struct Division {
+    std::size_t first_count = 0; ///< 0: not divided
+    std::array<RangeBounds, 2> bounds;
+};
 
-/// Binned surface area heuristic, 32 bins along each axis (Wald 2007, "On fast construction of
-/// SAH-based bounding volume hierarchies"); halves the range where bins cannot tell the references
-/// apart. `scratch` has the range's length.
-std::size_t split_by_surface_area(std::span<Reference> range, std::span<Reference> scratch);
+// Each of these takes at least two references. The order within the parts is the same for any
+// number of threads.
 
-/// Halves the range along the longest axis of the centres; references with one centre are taken by
-/// number.
-std::size_t split_in_half(std::span<Reference> range);
+/// Binned surface area heuristic (Wald 2007, "On fast construction of SAH-based bounding volume
+/// hierarchies"). Writes the parts to `target`, which has the range's length; where bins cannot
+/// tell the references apart it writes nothing and divides nothing.
+Division split_by_surface_area(std::span<const Reference> range, const RangeBounds& bounds,
+                               std::span<Reference> target);
 
-/// Those of the lowest kind present, and the others; there is more than one kind.
-std::size_t split_by_kind(std::span<Reference> range);
+/// Halves the range in place, along the longest axis of the centres; references with one centre are
+/// taken by number.
+Division split_in_half(std::span<Reference> range, const RangeBounds& bounds);
+
+/// Those of the lowest kind present, and the others, in place; there is more than one kind.
+Division split_by_kind(std::span<Reference> range);
 
 } // namespace parhelion

@@ -4,14 +4,15 @@
 
 #include "kernels/shared/features.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
 #include <array>
 
 namespace parhelion {
 namespace {
+
+constexpr int task_references = 1 << 14; // subtrees of more are tasks of their own
 
 BvhNode empty_node() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -22,89 +23,107 @@ BvhNode empty_node() {
     return node;
 }
 
-class NodeWriter {
-public:
-    NodeWriter(Bvh& bvh, const BinaryTree& tree, const CollapsePlan& plan)
-        : nodes_(bvh.nodes), first_leaf_(int(bvh.leaves.size())), tree_(tree), plan_(plan) {}
+void write_box(BvhNode& node, int place, const Box& box) {
+    for (int axis = 0; axis < 3; axis++) {
+        node.bounds[2 * axis][place] = box.low[axis];
+        node.bounds[2 * axis + 1][place] = box.high[axis];
+    }
+}
 
-    WideTree write() {
-        if (is_leaf(0)) return {leaf_code(0), 0, 0, std::move(leaves_)};
-        int root = int(nodes_.size());
-        Reach reach = write_node(0);
-        return {root, reach.depth, reach.stack_entries, std::move(leaves_)};
+/// The binary nodes that are the children of a wide one.
+struct Children {
+    std::array<int, BVH_WIDTH> binary;
+    int count = 0;
+};
+
+/// A binary tree seen as the wide tree that the plan makes of it.
+class Collapsed {
+public:
+    Collapsed(const BinaryTree& tree, const CollapsePlan& plan) : tree_(tree), plan_(plan) {}
+
+    const BinaryNode& node(int binary) const { return tree_.nodes[std::size_t(binary)]; }
+    bool is_leaf(int binary) const { return left_roots(binary, 1) == 0; }
+    std::span<const Reference> references(int binary) const {
+        return std::span(tree_.references)
+            .subspan(std::size_t(node(binary).first), std::size_t(node(binary).count));
+    }
+    Children children(int binary) const {
+        Children children;
+        gather_both(binary, BVH_WIDTH, children);
+        return children;
     }
 
 private:
-    struct Reach {
-        int depth, stack_entries;
-    };
-    struct Children {
-        std::array<int, BVH_WIDTH> binary;
-        int count = 0;
-    };
-
-    const CollapseChoice& choice(int binary) const { return plan_.choices[binary]; }
-    bool is_leaf(int binary) const { return choice(binary).left_roots[1] == 0; }
-
-    int leaf_code(int binary) {
-        const BinaryNode& node = tree_.nodes[binary];
-        int leaf = first_leaf_ + int(leaves_.size());
-        leaves_.push_back({node.first, node.count});
-        return ~((leaf << 2) | node.kind);
+    int left_roots(int binary, int roots) const {
+        return plan_.choices[std::size_t(binary)].left_roots[std::size_t(roots)];
     }
 
     /// The binary nodes that stand for a subtree when it may take up to `roots` places.
     void gather(int binary, int roots, Children& children) const {
-        while (roots > 1 && choice(binary).left_roots[roots] == 0)
+        while (roots > 1 && left_roots(binary, roots) == 0)
             roots--;
-        if (roots == 1) {
-            children.binary[children.count++] = binary;
-            return;
-        }
-        gather_both(binary, roots, children);
+        if (roots == 1)
+            children.binary[std::size_t(children.count++)] = binary;
+        else
+            gather_both(binary, roots, children);
     }
 
     void gather_both(int binary, int roots, Children& children) const {
-        int left_roots = choice(binary).left_roots[roots], first = tree_.nodes[binary].children;
-        gather(first, left_roots, children);
-        gather(first + 1, roots - left_roots, children);
+        int left = left_roots(binary, roots), first = node(binary).children;
+        gather(first, left, children);
+        gather(first + 1, roots - left, children);
     }
 
-    void write_box(BvhNode& node, int place, const Box& box) const {
-        for (int axis = 0; axis < 3; axis++) {
-            node.bounds[2 * axis][place] = box.low[axis];
-            node.bounds[2 * axis + 1][place] = box.high[axis];
-        }
+    const BinaryTree& tree_;
+    const CollapsePlan& plan_;
+};
+
+/// Calls visit(i, child) for the children that are nodes, large ones in tasks of their own.
+template<class Visit>
+void for_node_children(const Collapsed& collapsed, const Children& children, const Visit& visit) {
+    tbb::task_group group;
+    for (int i = 0; i < children.count; i++) {
+        int child = children.binary[std::size_t(i)];
+        if (collapsed.is_leaf(child)) continue;
+        if (collapsed.node(child).count > task_references)
+            group.run([&visit, i, child] { visit(i, child); });
+        else
+            visit(i, child);
     }
+    group.wait();
+}
+
+class Measurer {
+public:
+    Measurer(const Collapsed& collapsed, WideTree& wide) : collapsed_(collapsed), wide_(wide) {}
 
     /// A walk that goes down into one child leaves the others waiting: children - 1 entries a
     /// level.
-    Reach write_node(int binary) {
-        std::size_t me = nodes_.size();
-        nodes_.push_back(empty_node());
-        Children children;
-        gather_both(binary, BVH_WIDTH, children);
+    WideExtent measure(int binary) const {
+        Children children = collapsed_.children(binary);
+        std::array<WideExtent, BVH_WIDTH> below;
+        below.fill({0, 1, 0, 0});
+        for_node_children(collapsed_, children,
+                          [&](int i, int child) { below[std::size_t(i)] = measure(child); });
+        WideExtent extent;
         for (int i = 0; i < children.count; i++) {
-            int child = children.binary[i];
-            write_box(nodes_[me], i, tree_.nodes[child].box);
-            if (is_leaf(child)) nodes_[me].child[i] = leaf_code(child);
+            const WideExtent& child = below[std::size_t(i)];
+            extent.nodes += child.nodes;
+            extent.leaves += child.leaves;
+            extent.depth = std::max(extent.depth, child.depth);
+            extent.stack_entries = std::max(extent.stack_entries, child.stack_entries);
         }
-        Reach below{0, 0};
-        for (int i = 0; i < children.count; i++) {
-            if (is_leaf(children.binary[i])) continue;
-            nodes_[me].child[i] = int(nodes_.size());
-            Reach reach = write_node(children.binary[i]);
-            below.depth = std::max(below.depth, reach.depth);
-            below.stack_entries = std::max(below.stack_entries, reach.stack_entries);
-        }
-        return {below.depth + 1, below.stack_entries + children.count - 1};
+        extent.nodes++;
+        extent.depth++;
+        extent.stack_entries += children.count - 1;
+        wide_.nodes_below[std::size_t(binary)] = extent.nodes;
+        wide_.leaves_below[std::size_t(binary)] = extent.leaves;
+        return extent;
     }
 
-    CacheLineVector<BvhNode>& nodes_;
-    int first_leaf_;
-    const BinaryTree& tree_;
-    const CollapsePlan& plan_;
-    std::vector<LeafRange> leaves_;
+private:
+    const Collapsed& collapsed_;
+    WideTree& wide_;
 };
 
 std::array<float, 9> leaf_column(const PrimitiveRecord& p) {
@@ -112,43 +131,83 @@ std::array<float, 9> leaf_column(const PrimitiveRecord& p) {
     return {p.ax, p.ay, p.az, p.bx, p.by, p.bz, p.cx, p.cy, p.cz};
 }
 
-BvhLeaf make_leaf(std::span<const Reference> references,
-                  std::span<const PrimitiveRecord> primitives) {
-    BvhLeaf leaf{};
-    std::fill_n(leaf.primitive, BVH_WIDTH, -1);
-    for (std::size_t i = 0; i < references.size(); i++) {
-        int number = references[i].primitive();
-        std::array<float, 9> column = leaf_column(primitives[std::size_t(number)]);
-        for (std::size_t row = 0; row < column.size(); row++)
-            leaf.rows[row][i] = column[row];
-        leaf.primitive[i] = number;
+class Writer {
+public:
+    Writer(Bvh& bvh, const Collapsed& collapsed, const WideTree& wide,
+           std::span<const PrimitiveRecord> primitives)
+        : bvh_(bvh), collapsed_(collapsed), wide_(wide), primitives_(primitives) {}
+
+    /// Writes the subtree of a wide node to the places from `node` and `leaf` on.
+    void write_node(int binary, int node, int leaf) const {
+        Children children = collapsed_.children(binary);
+        BvhNode& out = bvh_.nodes[std::size_t(node)] = empty_node();
+        std::array<int, BVH_WIDTH> first_node, first_leaf;
+        for (int i = 0; i < children.count; i++) {
+            int child = children.binary[std::size_t(i)];
+            write_box(out, i, collapsed_.node(child).box);
+            if (collapsed_.is_leaf(child)) out.child[i] = write_leaf(child, leaf++);
+        }
+        node++;
+        for (int i = 0; i < children.count; i++) {
+            auto child = std::size_t(children.binary[std::size_t(i)]);
+            if (collapsed_.is_leaf(int(child))) continue;
+            first_node[std::size_t(i)] = out.child[i] = node;
+            first_leaf[std::size_t(i)] = leaf;
+            node += wide_.nodes_below[child];
+            leaf += wide_.leaves_below[child];
+        }
+        for_node_children(collapsed_, children, [&](int i, int child) {
+            write_node(child, first_node[std::size_t(i)], first_leaf[std::size_t(i)]);
+        });
     }
-    return leaf;
-}
+
+    /// Returns the child code.
+    int write_leaf(int binary, int number) const {
+        std::span<const Reference> references = collapsed_.references(binary);
+        BvhLeaf& leaf = bvh_.leaves[std::size_t(number)] = {};
+        std::fill_n(leaf.primitive, BVH_WIDTH, -1);
+        for (std::size_t i = 0; i < references.size(); i++) {
+            int primitive = references[i].primitive();
+            std::array<float, 9> column = leaf_column(primitives_[std::size_t(primitive)]);
+            for (std::size_t row = 0; row < column.size(); row++)
+                leaf.rows[row][i] = column[row];
+            leaf.primitive[i] = primitive;
+        }
+        return ~((number << 2) | collapsed_.node(binary).kind);
+    }
+
+private:
+    Bvh& bvh_;
+    const Collapsed& collapsed_;
+    const WideTree& wide_;
+    std::span<const PrimitiveRecord> primitives_;
+};
 
 } // namespace
 
-WideTree append_nodes(Bvh& bvh, const BinaryTree& tree, const CollapsePlan& plan) {
-    return NodeWriter(bvh, tree, plan).write();
+WideTree measure_wide_tree(const BinaryTree& tree, const CollapsePlan& plan) {
+    Collapsed collapsed(tree, plan);
+    if (collapsed.is_leaf(0)) return {{0, 1, 0, 0}, {}, {}};
+    WideTree wide{{}, LargeVector<int>(tree.nodes.size()), LargeVector<int>(tree.nodes.size())};
+    wide.extent = Measurer(collapsed, wide).measure(0);
+    return wide;
+}
+
+int append_wide_tree(Bvh& bvh, const BinaryTree& tree, const CollapsePlan& plan,
+                     const WideTree& wide, std::span<const PrimitiveRecord> primitives) {
+    int node = int(bvh.nodes.size()), leaf = int(bvh.leaves.size());
+    bvh.nodes.resize(bvh.nodes.size() + std::size_t(wide.extent.nodes));
+    bvh.leaves.resize(bvh.leaves.size() + std::size_t(wide.extent.leaves));
+    Collapsed collapsed(tree, plan);
+    Writer writer(bvh, collapsed, wide, primitives);
+    if (collapsed.is_leaf(0)) return writer.write_leaf(0, leaf);
+    writer.write_node(0, node, leaf);
+    return node;
 }
 
 int append_empty_node(Bvh& bvh) {
     bvh.nodes.push_back(empty_node());
     return int(bvh.nodes.size()) - 1;
-}
-
-void append_leaves(Bvh& bvh, const BinaryTree& tree, std::span<const LeafRange> leaves,
-                   std::span<const PrimitiveRecord> primitives) {
-    std::size_t before = bvh.leaves.size();
-    bvh.leaves.resize(before + leaves.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves.size(), 64),
-                      [&](const auto& block) {
-                          for (std::size_t i = block.begin(); i < block.end(); i++) {
-                              std::span references(&tree.references[std::size_t(leaves[i].first)],
-                                                   std::size_t(leaves[i].count));
-                              bvh.leaves[before + i] = make_leaf(references, primitives);
-                          }
-                      });
 }
 
 } // namespace parhelion

@@ -5,29 +5,28 @@
 #include "host/bvh/collapse.h"
 
 #include <span>
-#include <vector>
 
 namespace parhelion {
 
-/// The references of one leaf, as a range of BinaryTree::references.
-struct LeafRange {
-    int first, count;
+/// What a wide tree needs.
+struct WideExtent {
+    int nodes = 0, leaves = 0;
+    int depth = 0, stack_entries = 0;
 };
 
+/// The wide tree that a plan makes of a binary tree, before it is written.
 struct WideTree {
-    int root; ///< a child code
-    int depth, stack_entries;
-    std::vector<LeafRange> leaves; ///< numbered from bvh.leaves.size() on, but not there yet
+    WideExtent extent;
+    LargeVector<int> nodes_below, leaves_below; ///< of each binary node that becomes a wide one
 };
 
-/// Appends the nodes to bvh.nodes, each before its children, and numbers the leaves.
-WideTree append_nodes(Bvh& bvh, const BinaryTree& tree, const CollapsePlan& plan);
+WideTree measure_wide_tree(const BinaryTree& tree, const CollapsePlan& plan);
+
+/// Appends nodes (each before its children) and leaves to bvh; returns the root as a child code.
+int append_wide_tree(Bvh& bvh, const BinaryTree& tree, const CollapsePlan& plan,
+                     const WideTree& wide, std::span<const PrimitiveRecord> primitives);
 
 /// Appends a node whose 16 children are empty; returns its number.
 int append_empty_node(Bvh& bvh);
-
-/// Appends the leaves that append_nodes has numbered.
-void append_leaves(Bvh& bvh, const BinaryTree& tree, std::span<const LeafRange> leaves,
-                   std::span<const PrimitiveRecord> primitives);
 
 } // namespace parhelion
