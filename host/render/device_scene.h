@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/bvh/bvh.h"
+#include "host/large_vector.h"
 #include "host/scene/scene.h"
 #include "kernels/device/buffers.h"
 #include "kernels/shared/features.h"
@@ -14,8 +15,8 @@
 namespace parhelion {
 
 struct DeviceScene {
-    std::vector<PrimitiveRecord> primitives;
-    std::vector<VertexRecord>
+    LargeVector<PrimitiveRecord> primitives;
+    LargeVector<VertexRecord>
         vertices; ///< parallel to primitives; empty where no mesh has attributes that are read
     std::vector<MaterialRecord> materials;
     std::vector<LightRecord> lights;

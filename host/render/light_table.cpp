@@ -132,7 +132,7 @@ Row emitter_row(const ConstantEmitter& e, double scene_radius) {
 }
 
 /// Half the diagonal of the box around all primitives; 1 for a scene without any.
-double scene_radius(const std::vector<PrimitiveRecord>& primitives) {
+double scene_radius(std::span<const PrimitiveRecord> primitives) {
     glm::dvec3 low(std::numeric_limits<double>::infinity()),
         high(-std::numeric_limits<double>::infinity());
     auto grow = [&](const glm::dvec3& p, double r) {

@@ -10,6 +10,16 @@ namespace {
 
 int rounded_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
 
+template<class T>
+Buffer<T> make_buffer(const RenderDevice& d, const char* name, const LargeVector<T>& values) {
+    return Buffer<T>::of(d.context, d.queue, name, values);
+}
+
+template<class T>
+Buffer<T> make_buffer(const RenderDevice& d, const char* name, const std::vector<T>& values) {
+    return Buffer<T>(d.context, d.queue, name, values.data(), values.size());
+}
+
 } // namespace
 
 std::size_t WorkBuffers::bytes() const {
@@ -49,17 +59,15 @@ void Pipeline::upload(const DeviceScene& scene) {
     struct {
         const decltype(scene.bvh.nodes)& bvh_nodes;
         const decltype(scene.bvh.leaves)& bvh_leaves;
-        const std::vector<PrimitiveRecord>& primitives;
-        const std::vector<VertexRecord>& vertices;
+        const LargeVector<PrimitiveRecord>& primitives;
+        const LargeVector<VertexRecord>& vertices;
         const std::vector<MaterialRecord>& materials;
         const std::vector<LightRecord>& lights;
         const std::vector<LightAlias>& light_aliases;
         const std::vector<FilterBin>& filter_table;
     } arrays{scene.bvh.nodes, scene.bvh.leaves, scene.primitives,    scene.vertices,
              scene.materials, scene.lights,     scene.light_aliases, scene.filter_table};
-#define UPLOAD(type, name)                                                                         \
-    scene_.name = Buffer<type>(device_.context, device_.queue, #name, arrays.name.data(),          \
-                               arrays.name.size());
+#define UPLOAD(type, name) scene_.name = make_buffer(device_, #name, arrays.name);
     SCENE_BUFFERS(UPLOAD)
 }
 

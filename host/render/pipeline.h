@@ -46,6 +46,8 @@ public:
     /// `device` must outlive it.
     Pipeline(RenderDevice& device, const StageOptions& options);
 
+    /// `scene` must outlive the pipeline and not change: a CPU reads its large arrays where they
+    /// are.
     void upload(const DeviceScene& scene);
     void allocate(const WorkSizes& sizes);
     /// Binds buffers and parameters to every kernel.
