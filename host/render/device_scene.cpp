@@ -11,8 +11,9 @@
 
 #include <glm/geometric.hpp>
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <limits>
-#include <numeric>
 #include <type_traits>
 
 namespace parhelion {
@@ -60,25 +61,30 @@ VertexRecord vertex_record(const Mesh& mesh, const glm::uvec3& t) {
     return v;
 }
 
+bool has_vertices(const DeviceScene& scene) {
+    return scene.features & (feature_bit(feature_vertex_normals) | feature_bit(feature_vertex_uvs));
+}
+
 void add_shape(const Mesh& mesh, const Shape& shape, int index, DeviceScene& out) {
     int flags =
         (mesh.normals.empty() ? 0 : PRIMITIVE_NORMALS) | (mesh.uvs.empty() ? 0 : PRIMITIVE_UVS);
-    bool attributes =
-        out.features & (feature_bit(feature_vertex_normals) | feature_bit(feature_vertex_uvs));
-    for (std::size_t i = 0; i < mesh.triangles.size(); i++) {
+    bool attributes = has_vertices(out);
+    std::size_t first = out.primitives.size();
+    out.primitives.resize(first + mesh.triangles.size());
+    if (attributes) out.vertices.resize(out.primitives.size());
+    tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
         const glm::uvec3& t = mesh.triangles[i];
         PrimitiveRecord p = primitive(shape, index, geometry_triangle, flags);
         p.index_in_shape = static_cast<int>(i);
         set_points(p, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
-        out.primitives.push_back(p);
-        if (attributes) out.vertices.push_back(vertex_record(mesh, t));
-    }
+        out.primitives[first + i] = p;
+        if (attributes) out.vertices[first + i] = vertex_record(mesh, t);
+    });
 }
 
 void add_analytic(const PrimitiveRecord& p, DeviceScene& out) {
     out.primitives.push_back(p);
-    if (out.features & (feature_bit(feature_vertex_normals) | feature_bit(feature_vertex_uvs)))
-        out.vertices.push_back({});
+    if (has_vertices(out)) out.vertices.push_back({});
 }
 
 void add_shape(const Sphere& sphere, const Shape& shape, int index, DeviceScene& out) {
@@ -125,6 +131,7 @@ static DeviceScene flatten_scene(const Scene& scene) {
     DeviceScene out;
     out.features = scene_features(scene);
     out.primitives.reserve(count);
+    if (has_vertices(out)) out.vertices.reserve(count);
     for (std::size_t i = 0; i < scene.shapes.size(); i++)
         std::visit([&](const auto& g) { add_shape(g, scene.shapes[i], static_cast<int>(i), out); },
                    scene.shapes[i].geometry);
@@ -137,13 +144,11 @@ static DeviceScene flatten_scene(const Scene& scene) {
 
 DeviceScene make_device_scene(const Scene& scene) {
     DeviceScene out = flatten_scene(scene);
-    std::vector<int> all(out.primitives.size());
-    std::iota(all.begin(), all.end(), 0);
-    out.root = bvh_append(out.bvh, out.primitives, all, &out.bvh_statistics);
+    out.root = bvh_append(out.bvh, out.primitives, &out.bvh_statistics);
     out.camera_root = out.root;
     if (scene.integrator.hide_emitters) {
         std::vector<int> visible = seen_by_camera(out);
-        if (visible.size() < all.size())
+        if (visible.size() < out.primitives.size())
             out.camera_root = bvh_append(out.bvh, out.primitives, visible, nullptr);
     }
     return out;
