@@ -1,0 +1,1 @@
+"""The benchmarks: one module a subcommand, what they share, and the page."""
