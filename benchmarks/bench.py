@@ -15,12 +15,14 @@ import pathlib
 import sys
 
 sys.dont_write_bytecode = True
-from suite import machine, native, page  # noqa: E402
+from suite import first_image, machine, native, page, render_rates  # noqa: E402
 from suite.context import Context, Failure, say  # noqa: E402
 
 SUBCOMMANDS = {
     "traversal": native.traversal,
     "build": native.build,
+    "render": render_rates.rates,
+    "compile": first_image.first_image,
 }
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 

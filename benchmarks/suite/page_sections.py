@@ -36,3 +36,40 @@ def build(result, table, plots):
             [(name, [(s["triangles"], s[key]) for s in run["sizes"]])
              for name, key in (("Parhelion", "seconds"), ("Embree", "embree_seconds"))], legend_right=False))
     return "\n".join(parts) + plots(drawings)
+
+
+def render(result, table, plots):
+    stages = list(result["scenes"][0]["share"])
+    parts = [table(["scene", "Mpaths/s", "Mrays/s", "vertices a path", "pool B a path",
+                    *(f"{s} %" for s in stages), *(f"{s} ns" for s in stages)],
+                   [(r["name"], r["mpaths_per_second"], r["mrays_per_second"], r["vertices_per_path"],
+                     r["pool_bytes_per_path"], *(100 * r["share"][s] for s in stages), *(r["ns"][s] for s in stages))
+                    for r in result["scenes"]]),
+             "<p>ns: of generate and accumulate a path, of intersect and shade a vertex, of shadow a shadow ray.</p>"]
+    drawings = [svg.bars("share of each stage", "share", [(r["name"], [r["share"][s] for s in stages])
+                                                          for r in result["scenes"][:5]], stages)]
+    for key, x, label in (("resolution", "size", "pixels a side"), ("triangles", "primitives", "triangles"),
+                          ("emitters", "lamps", "lamps")):
+        rows = result[key]
+        parts.append(table([label, "render seconds", "Mpaths/s", "Mrays/s", "pool bytes", "scene bytes", "host peak MB"],
+                           [(r[x], r["seconds"], r["mpaths_per_second"], r["mrays_per_second"], r["pool_bytes"],
+                             r["scene_bytes"], r["host_peak_bytes"] / 1e6) for r in rows]))
+        drawings.append(svg.lines(f"growth with {label}", label, "render seconds",
+                                  [("seconds", [(r[x], r["seconds"]) for r in rows])], legend_right=False))
+    parts.append(table(["max_depth", "seconds", "vertices a path", "Mpaths/s", "Mrays/s"],
+                       [(r["max_depth"], r["seconds"], r["vertices_per_path"], r["mpaths_per_second"],
+                         r["mrays_per_second"]) for r in result["depth"]]))
+    drawings.append(svg.lines("growth with depth", "vertices a path", "render seconds",
+                              [("seconds", [(r["vertices_per_path"], r["seconds"]) for r in result["depth"]])],
+                              log_x=False, log_y=False, legend_right=False))
+    return "\n".join(parts) + plots(drawings)
+
+
+def compile(result, table, plots):  # named as the subcommand
+    steps = ["load", "bvh", "compile", "upload", "render", "write"]
+    rows = [(f"{s['name']}, {kind}", s[kind]["process_seconds"], s[kind]["peak_bytes"] / 1e6,
+             *(s[kind][step] for step in steps)) for s in result["scenes"] for kind in ("cold", "warm")]
+    drawing = svg.bars("seconds to a 1-spp image", "seconds",
+                       [(s["name"], [s["cold"]["process_seconds"], s["warm"]["process_seconds"]])
+                        for s in result["scenes"]], ["cold", "warm"])
+    return table(["start", "whole process s", "peak MB", *(f"{s} s" for s in steps)], rows) + plots([drawing])
