@@ -15,13 +15,14 @@ import pathlib
 import sys
 
 sys.dont_write_bytecode = True
-from suite import first_image, machine, native, page, render_rates  # noqa: E402
+from suite import first_image, machine, native, page, render_rates, time_to_error  # noqa: E402
 from suite.context import Context, Failure, say  # noqa: E402
 
 SUBCOMMANDS = {
     "traversal": native.traversal,
     "build": native.build,
     "render": render_rates.rates,
+    "time-to-error": time_to_error.time_to_error,
     "compile": first_image.first_image,
 }
 ROOT = pathlib.Path(__file__).resolve().parents[1]

@@ -73,3 +73,39 @@ def compile(result, table, plots):  # named as the subcommand
                        [(s["name"], [s["cold"]["process_seconds"], s["warm"]["process_seconds"]])
                         for s in result["scenes"]], ["cold", "warm"])
     return table(["start", "whole process s", "peak MB", *(f"{s} s" for s in steps)], rows) + plots([drawing])
+
+
+def time_to_error(result, table, plots):
+    parts = [f"<p>{result['threads']} thread(s) each. Beside us: {', '.join(result['peers']) or 'none'}.</p>"]
+    if result["skipped"]:
+        parts.append("<ul>" + "".join(f"<li>{reason}</li>" for reason in result["skipped"]) + "</ul>")
+    for scene in result["scenes"]:
+        parts.append(_error_scene(scene, table, plots))
+    return "\n".join(parts)
+
+
+def _error_scene(scene, table, plots):
+    against = (f"a reference of {scene['reference_spp']} spp, own RMSE below {scene['reference_rmse']:.2g}, taken off"
+               if scene["reference_spp"] else "the known answer")
+    curves = scene["curves"]
+    rows = [(c["name"], p["spp"], p["runs"], p["seconds"], p["process_seconds"], p["rmse"], p.get("relmse"),
+             p.get("flip"), p.get("efficiency")) for c in curves for p in c["points"]]
+    fitted = [(c["name"], c["exponent_of_spp"], c["fit"]["bias"], c["fit"]["bias_low"], c["fit"]["bias_high"],
+               (c["paths_per_second"] or 0) / 1e6) for c in curves if c.get("fit")]
+    faster = [(s["name"], *(f"{row['speed_up']:.2f}{' *' if row['extrapolated'] else ''}" for row in s["levels"]))
+              for s in scene["speed_up"]]
+    drawings = [svg.lines(f"{scene['name']}: RMSE", "seconds rendering", "RMSE",
+                          [(c["name"], [(p["seconds"], p["rmse"]) for p in c["points"]]) for c in curves]),
+                svg.lines(f"{scene['name']}: RMSE, whole process", "seconds from start to file", "RMSE",
+                          [(c["name"], [(p["process_seconds"] or 0, p["rmse"]) for p in c["points"]])
+                           for c in curves]),
+                *(svg.lines(f"{scene['name']}: {name}", "seconds rendering", name,
+                            [(c["name"], [(p["seconds"], p.get(key) or 0) for p in c["points"]]) for c in curves])
+                  for key, name in (("relmse", "relMSE"), ("flip", "FLIP")))]
+    return "\n".join([
+        f"<h3>{scene['name']}</h3><p>Errors against {against}.</p>",
+        table(["faster than", *(f"to RMSE {level:.3g}" for level in scene["levels"])], faster),
+        table(["fit", "exponent of spp", "bias", "from", "to", "Mpaths/s"], fitted), plots(drawings),
+        "<details><summary>All points</summary>",
+        table(["", "spp", "runs", "seconds", "whole process s", "RMSE", "relMSE", "FLIP", "1/(MSE s)"], rows),
+        "</details>"])

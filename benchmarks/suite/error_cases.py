@@ -1,0 +1,95 @@
+"""The scenes of time-to-error, and what their images are held against."""
+import dataclasses
+import hashlib
+import pathlib
+
+from . import exr
+from .context import say, thread_counts
+from .renderer import render
+
+REFERENCE_SEED = 900_001
+SIZE = 128
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    name: str
+    scene: pathlib.Path
+    size: int | None       # pixels a side; None: as the file says
+    levels: tuple          # RMSE at which times are compared
+    truth: tuple | None = None  # the colour of every pixel, where it is known
+    relative_levels: bool = False  # levels are in units of the reference's mean
+    pbrt: str | None = None  # its name in PBRT
+
+
+# pbrt-v4, one core of this kind of machine, 128x128: (spp, seconds, RMSE to the mean of its own 512-spp images).
+# Measured once for this project, another day than the rest of a report.
+PBRT = {
+    "cornell": [(1, .113, .33325), (4, .442, .14860), (16, 1.703, .03123), (64, 8.051, .01122), (256, 30.365, .00515),
+                (512, 78.079, .00380)],
+    "spheres": [(1, .131, .44455), (4, .536, .18953), (16, 2.073, .06761), (64, 9.087, .02856), (256, 40.514, .01517),
+                (512, 86.222, .01084)],
+    "bunny_env": [(1, .207, .29316), (4, .442, .15114), (16, 1.509, .04708), (64, 5.878, .02096),
+                  (256, 24.573, .01021), (512, 42.988, .00732)],
+    "bunny_point": [(1, .224, .09533), (4, .527, .04952), (16, 1.675, .01510), (64, 6.220, .00657),
+                    (256, 26.768, .00322), (512, 48.934, .00229)],
+}
+
+LEVELS = (0.04, 0.02, 0.01)
+REAL = [
+    ("Cornell box", "cornell-box/scene.xml", "cornell"),
+    ("glass and metal", "glass-and-metal/scene.xml", "spheres"),
+    ("bunny, sky", "bunny/env.xml", "bunny_env"),
+    ("bunny, point light", "bunny/point.xml", "bunny_point"),
+]
+# Below the shared data; rendered at 128 x 128 with the filter they ask for.
+SHARED = [
+    ("Mitsuba's Cornell box", "scenes-mitsuba/cornell-box/scene_path.xml"),
+    ("Mitsuba 2's Cornell box", "scenes-mitsuba/cbox-m2/scene.xml"),
+]
+# Every pixel of these is one colour (scenes/README.md has the formulas).
+CLOSED_FORM = [
+    ("rectangle light", "rectangle_light", (0.8 * 0.194980345804875, 0.5 * 2 * 0.194980345804875,
+                                            0.2 * 4 * 0.194980345804875)),
+    ("half-blocked sky", "half_blocked_sky", (0.6, 0.75, 0.6)),
+    ("diffuse under glass", "hemispherical_fresnel", tuple(
+        0.04 + 0.96 * r * (1 - 0.596345759707712) / (1 - r * 0.596345759707712) for r in (0.9, 0.5, 0.2))),
+    ("closed box", "enclosure_box", (5.0, 4.0, 5.0)),
+]
+
+
+def cases(context):
+    """Those that can be rendered here, and why others cannot."""
+    made = [Case(name, context.scene(file), SIZE, LEVELS, pbrt=pbrt) for name, file, pbrt in REAL]
+    absent = []
+    for name, file in SHARED:
+        if context.data and (context.data / file).exists():
+            made.append(Case(name, context.data / file, SIZE, (0.32, 0.16, 0.08), relative_levels=True))
+        else:
+            absent.append(f"{name}: skipped, PARHELION_DATA has no {file}")
+    made += [Case(name, context.scene(f"closed_form/{folder}/scene.xml"), None, (0.08, 0.04, 0.02), truth=truth,
+                  relative_levels=True) for name, folder, truth in CLOSED_FORM]
+    if context.quick:
+        made = [made[0], made[3], next(c for c in made if c.truth)]
+    return made, absent
+
+
+def reference(context, case):
+    """{image, spp}: the truth as an image, or a long render of our own that is kept between runs."""
+    folder = context.folder("references")
+    if case.truth:
+        stats = render(context, case.scene, spp=1, size=None)
+        image = folder / f"{case.scene.parent.name}.exr"
+        exr.write_constant(image, stats["image_pixels"][0], stats["image_pixels"][1], case.truth)
+        return {"image": image, "spp": None}
+    spp = 1024 if context.quick else 16384
+    key = hashlib.sha256(case.scene.read_bytes() + f"{case.size}".encode()).hexdigest()[:12]
+    kept = sorted(folder.glob(f"{key}-*.exr"), key=lambda p: int(p.stem.split("-")[1]))
+    if kept and int(kept[-1].stem.split("-")[1]) >= spp:
+        return {"image": kept[-1], "spp": int(kept[-1].stem.split("-")[1])}
+    say(f"{case.name}: rendering the reference, {spp} spp; it is kept")
+    image, part = folder / f"{key}-{spp}.exr", folder / f"part-{key}.exr"
+    render(context, case.scene, spp=spp, size=case.size, threads=max(thread_counts()), seed=REFERENCE_SEED,
+           output=part)
+    part.rename(image)
+    return {"image": image, "spp": spp}

@@ -1,0 +1,167 @@
+"""time-to-error: seconds against error, for us and for every other renderer found here."""
+import math
+
+from . import error_cases, fits
+from .context import Failure, check, say
+from .error_fit import mean_square_fit
+from .peers.found import found
+from .renderer import compare, render
+
+# spp: number of independent runs
+PLAN = {1: 16, 4: 8, 16: 6, 64: 4, 256: 2, 1024: 1}
+PEER_PLAN = {4: 4, 16: 3, 64: 2, 256: 1}
+QUICK_PLAN, QUICK_PEER_PLAN = {1: 6, 16: 2, 64: 2}, {4: 1, 16: 1}
+
+# How many times as fast to an equal error, at least; LuxCore and others: ahead.
+LEAST = {"Cycles": 4, "Mitsuba llvm_ad_rgb": 4, "pbrt-v4": 15}
+
+
+def time_to_error(context):
+    peers, absent = found(context)
+    cases, missing = error_cases.cases(context)
+    absent += missing
+    for reason in absent:
+        say(reason)
+    result = {"threads": context.threads, "skipped": absent, "peers": [f"{p.name} {p.version}" for p in peers],
+              "scenes": []}
+    checks = []
+    for case in cases:
+        say(case.name)
+        scene = measure_case(context, case, peers)
+        result["scenes"].append(scene)
+        result["skipped"] += scene.pop("skipped")
+        checks += [*_checks_of_sampling(scene), *_checks_of_speed(scene)]
+    checks += _checks_of_rates(result["scenes"])
+    return result, checks
+
+
+def measure_case(context, case, peers):
+    reference = error_cases.reference(context, case)
+    curves, skipped = [_ours(context, case, reference)], []
+    for peer in peers:
+        say(f"{case.name}: {peer.name}")
+        try:
+            curves.append(_peers(context, case, reference, peer))
+        except Failure as e:
+            say(f"skipped: {e}")
+            skipped.append(f"{case.name}, {peer.name}: {e}")
+    own = _reference_mean_square(curves[0], reference)
+    for curve in curves:
+        _finish(curve, own)
+    if case.pbrt and context.threads == 1:
+        points = [{"spp": n, "runs": 1, "seconds": t, "process_seconds": None, "rmse": e}
+                  for n, t, e in error_cases.PBRT[case.pbrt]]
+        curves.append({"name": "pbrt-v4", "figures_of_another_day": True, "points": points})
+    mean = curves[0]["mean"]
+    levels = [level * mean if case.relative_levels else level for level in case.levels]
+    return {"name": case.name, "reference_spp": reference["spp"], "reference_rmse": math.sqrt(own), "mean": mean,
+            "levels": levels, "curves": curves, "speed_up": [_speed_up(curves[0], c, levels) for c in curves[1:]],
+            "skipped": skipped}
+
+
+def _ours(context, case, reference):
+    plan = QUICK_PLAN if context.quick else PLAN
+    render(context, case.scene, spp=1, size=case.size)  # compiles
+    runs = []
+    for spp, count in plan.items():
+        for k in range(count):
+            stats = render(context, case.scene, spp=spp, size=case.size, threads=context.threads, seed=1000 * spp + k)
+            runs.append({"spp": spp, "seconds": stats["time"]["render_seconds"],
+                         "process_seconds": stats["process_seconds"],
+                         "pixels": math.prod(stats["image_pixels"]),
+                         **compare(context, stats["image"], reference["image"])})
+    return _curve("Parhelion", runs)
+
+
+def _peers(context, case, reference, peer):
+    plan = QUICK_PEER_PLAN if context.quick else PEER_PLAN
+    folder = context.folder("images")
+    jobs = [{"spp": spp, "seed": 7 + 1000 * spp + k, "output": folder / f"peer-{spp}-{k}.exr"}
+            for spp, count in plan.items() if spp <= peer.most_spp for k in range(count)]
+    size = case.size or _own_size(context, case)
+    runs = peer.render(case.scene, size, context.threads, jobs)
+    return _curve(peer.name, [{"spp": r["spp"], "seconds": r["seconds"], "process_seconds": r["process_seconds"],
+                               "pixels": size * size, **compare(context, r["output"], reference["image"])}
+                              for r in runs])
+
+
+def _own_size(context, case):
+    width, height = render(context, case.scene, spp=1, size=None)["image_pixels"]
+    if width != height:
+        raise Failure("its picture is not square")
+    return width
+
+
+def _curve(name, runs):
+    """Independent runs of the same samples become one point: middle of the times, root mean square of the errors."""
+    points = []
+    for spp in sorted({r["spp"] for r in runs}):
+        same = [r for r in runs if r["spp"] == spp]
+        points.append({"spp": spp, "runs": len(same), "seconds": fits.median([r["seconds"] for r in same]),
+                       "process_seconds": fits.median([r["process_seconds"] for r in same]),
+                       "rmse_each": [r["rmse"] for r in same],
+                       "measured_rmse": fits.root_mean_square([r["rmse"] for r in same]),
+                       "relmse": sum(r["relmse"] for r in same) / len(same),
+                       "flip": sum(r["flip"] for r in same) / len(same)})
+    last = points[-1]
+    rate = runs[-1]["pixels"] * last["spp"] / last["seconds"]
+    return {"name": name, "points": points, "mean": runs[-1]["mean"], "paths_per_second": rate}
+
+
+def _reference_mean_square(ours, reference):
+    """Our own error falls at least as fast as with independent samples, so this bounds the reference's."""
+    if not reference["spp"]:
+        return 0.0
+    last = ours["points"][-1]
+    share = last["spp"] / reference["spp"]
+    return last["measured_rmse"] ** 2 * share / (1 + share)
+
+
+def _finish(curve, reference_mean_square):
+    """Takes the reference's own error off, then fits."""
+    for p in curve["points"]:
+        p["rmse"] = math.sqrt(max(p["measured_rmse"] ** 2 - reference_mean_square, 1e-16))
+        p["efficiency"] = 1 / (p["rmse"] ** 2 * p["seconds"])
+    spps, errors = [p["spp"] for p in curve["points"]], [p["rmse"] for p in curve["points"]]
+    curve["exponent_of_spp"] = fits.power_fit(spps, errors)[0] if len(spps) > 1 else None
+    curve["fit"] = mean_square_fit([(p["seconds"], p["rmse"] ** 2, p["runs"]) for p in curve["points"]])
+
+
+def _seconds_at(curve, level):
+    points = [p for p in curve["points"] if p["seconds"] > 0]
+    return fits.value_at([p["rmse"] for p in points], [p["seconds"] for p in points], level)
+
+
+def _speed_up(ours, other, levels):
+    errors = [p["rmse"] for c in (ours, other) for p in (c["points"][0], c["points"][-1])]
+    rows = []
+    for level in levels:
+        a, b = _seconds_at(ours, level), _seconds_at(other, level)
+        outside = not (max(errors[1], errors[3]) <= level <= min(errors[0], errors[2]))
+        rows.append({"rmse": level, "seconds": a, "other_seconds": b, "speed_up": b / a, "extrapolated": outside})
+    return {"name": other["name"], "levels": rows}
+
+
+def _checks_of_speed(scene):
+    for other in scene["speed_up"]:
+        values = [row["speed_up"] for row in other["levels"]]
+        note = ", ".join(f"{row['speed_up']:.2f} at {row['rmse']:.3g}{' (extrapolated)' if row['extrapolated'] else ''}"
+                         for row in other["levels"])
+        yield check(f"time to error, {scene['name']}: {other['name']}'s seconds over ours, worst of three levels",
+                    min(values), least=LEAST.get(other["name"], 1), note=note)
+
+
+def _checks_of_sampling(scene):
+    """One sample a pixel is as good as independent sampling gets: 64 independent ones would be 8 times better."""
+    errors = {p["spp"]: p["rmse"] for p in scene["curves"][0]["points"]}
+    if 1 in errors and 64 in errors:
+        yield check(f"samples, {scene['name']}: RMSE at 64 spp over independent sampling's",
+                    8 * errors[64] / errors[1], most=0.75 if scene["name"] == "Cornell box" else 1.0)
+
+
+def _checks_of_rates(scenes):
+    cornell = next((s for s in scenes if s["name"] == "Cornell box"), None)
+    rates = {c["name"]: c.get("paths_per_second") for c in cornell["curves"]} if cornell else {}
+    if rates.get("Cycles"):
+        yield check("Cornell box, 8 bounces: our paths a second over Cycles'", rates["Parhelion"] / rates["Cycles"],
+                    least=5, note=f"{rates['Parhelion'] / 1e6:.2f} and {rates['Cycles'] / 1e6:.2f} Mpaths/s")
