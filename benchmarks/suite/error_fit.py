@@ -18,6 +18,8 @@ def mean_square_fit(points):
     if determinant <= 0:
         return None
     bias_squared, variance = (sbb * sam - sab * sbm) / determinant, (saa * sbm - sab * sam) / determinant
+    if variance <= 0:
+        return None
     spread = 2 * math.sqrt(sbb / determinant)
     root = lambda x: math.sqrt(max(0.0, x))  # noqa: E731
     return {"bias": root(bias_squared), "bias_low": root(bias_squared - spread), "bias_high": root(bias_squared + spread),

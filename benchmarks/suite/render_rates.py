@@ -7,6 +7,7 @@ POOL_PATHS = 65536  # the program's --pool-paths
 
 # The shading prototype's cost, ns a vertex on one core of the machine it was made on (16 lanes).
 PROTOTYPE_NS = {"diffuse": 23, "GGX": 32, "glass": 24, "many materials": 36}
+QUICK_MATERIALS = ("diffuse", "GGX", "glass")
 
 
 def _middle(context, scene, repeats, **options):
@@ -47,7 +48,7 @@ def _named_scenes(context):
     yield "bunny, sky", context.scene("bunny/env.xml")
     yield "bunny, point light", context.scene("bunny/point.xml")
     yield "many materials", scenes.many_materials(folder)
-    for name in scenes.MATERIALS:
+    for name in QUICK_MATERIALS if context.quick else scenes.MATERIALS:
         yield f"room of {name}", scenes.material_room(folder, name)
 
 
@@ -74,12 +75,9 @@ def rates(context):
         result["triangles"].append(row)
     for lamps in (1, 10, 100, 1000) + (() if context.quick else (10_000,)):
         say(f"render: {lamps} lamps")
-        result["emitters"].append({"lamps": lamps, **_row(f"{lamps} lamps", _lamps(context, folder, lamps, spp))})
+        stats = render(context, scenes.many_lamps(folder, lamps), spp=spp)
+        result["emitters"].append({"lamps": lamps, **_row(f"{lamps} lamps", stats)})
     return result, checks
-
-
-def _lamps(context, folder, lamps, spp):
-    return render(context, scenes.many_lamps(folder, lamps), spp=spp)
 
 
 def _checks_of_stages(rows):

@@ -5,19 +5,15 @@ from .context import read_json, run
 
 
 def render(context, scene, *, spp, size=512, threads=1, seed=0, options=(), environment=None, output=None):
-    """Renders a scene file; `size`: pixels a side, None as the file says.
+    """Renders a scene file, `size` pixels a side.
 
-    Returns its --stats with `process_seconds`, `peak_bytes`, `image_pixels` and `image`, the file."""
+    Returns its --stats with `process_seconds`, `peak_bytes` and `image`, the file."""
     folder = context.folder("images")
     image = output or folder / "ours.exr"
     stats = image.with_suffix(".json")
-    sized = ["--size", f"{size}x{size}"] if size else []
     done = run([context.program, "render", scene, "-o", image, "--stats", stats, "--force", "--quiet", "--allow-outside",
-                "--spp", spp, "--threads", threads, "--seed", seed, *sized, *options], environment)
-    report = read_json(stats)
-    pixels = (report["image"]["width_pixels"], report["image"]["height_pixels"])
-    return {**report, "process_seconds": done.seconds, "peak_bytes": done.peak_bytes, "image": image,
-            "image_pixels": pixels}
+                "--size", f"{size}x{size}", "--spp", spp, "--threads", threads, "--seed", seed, *options], environment)
+    return {**read_json(stats), "process_seconds": done.seconds, "peak_bytes": done.peak_bytes, "image": image}
 
 
 def compare(context, image, reference):

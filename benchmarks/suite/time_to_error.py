@@ -68,7 +68,7 @@ def _ours(context, case, reference):
             stats = render(context, case.scene, spp=spp, size=case.size, threads=context.threads, seed=1000 * spp + k)
             runs.append({"spp": spp, "seconds": stats["time"]["render_seconds"],
                          "process_seconds": stats["process_seconds"],
-                         "pixels": math.prod(stats["image_pixels"]),
+                         "pixels": case.size**2,
                          **compare(context, stats["image"], reference["image"])})
     return _curve("Parhelion", runs)
 
@@ -78,18 +78,10 @@ def _peers(context, case, reference, peer):
     folder = context.folder("images")
     jobs = [{"spp": spp, "seed": 7 + 1000 * spp + k, "output": folder / f"peer-{spp}-{k}.exr"}
             for spp, count in plan.items() if spp <= peer.most_spp for k in range(count)]
-    size = case.size or _own_size(context, case)
-    runs = peer.render(case.scene, size, context.threads, jobs)
+    runs = peer.render(case.scene, case.size, context.threads, jobs)
     return _curve(peer.name, [{"spp": r["spp"], "seconds": r["seconds"], "process_seconds": r["process_seconds"],
-                               "pixels": size * size, **compare(context, r["output"], reference["image"])}
+                               "pixels": case.size**2, **compare(context, r["output"], reference["image"])}
                               for r in runs])
-
-
-def _own_size(context, case):
-    width, height = render(context, case.scene, spp=1, size=None)["image_pixels"]
-    if width != height:
-        raise Failure("its picture is not square")
-    return width
 
 
 def _curve(name, runs):

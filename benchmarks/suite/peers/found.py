@@ -36,9 +36,11 @@ def cycles(context):
 
 def luxcore(context):
     version = answer_of([context.luxcore, "-c", "import pyluxcore; pyluxcore.Init(); print(pyluxcore.Version())"])
+    # It looks at every OpenCL device though it needs none, and PoCL brings it down.
+    environment = {"OCL_ICD_VENDORS": "/nonexistent"}
     if not version:
         return [], f"LuxCore: skipped, {context.luxcore} cannot import pyluxcore (from PyPI; name another with --luxcore)"
-    return [Peer("LuxCore", version, (context.luxcore,), "luxcore_inside.py", {})], None
+    return [Peer("LuxCore", version, (context.luxcore,), "luxcore_inside.py", {}, environment=environment)], None
 
 
 def found(context):

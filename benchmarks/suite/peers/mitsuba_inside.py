@@ -18,8 +18,7 @@ def load(order):
     for node in state.nodes:
         if node.type == mitsuba.ObjectType.Film:
             node.props["component_format"] = "float32"
-            if order["size"]:
-                node.props["width"] = node.props["height"] = order["size"]
+            node.props["width"] = node.props["height"] = order["size"]
     loaded = mitsuba.parser.instantiate(config, state)
     return loaded[0] if isinstance(loaded, list) else loaded
 
