@@ -33,6 +33,13 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"parhelion bench: {message}\n")
 
 
+def positive(text):
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not positive")
+    return value
+
+
 def arguments():
     parser = Parser(prog="parhelion bench", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("subcommand", nargs="?", default="all", choices=[*SUBCOMMANDS, "all"], metavar="SUBCOMMAND",
@@ -42,7 +49,9 @@ def arguments():
     parser.add_argument("--html", metavar="FILE", type=pathlib.Path, help="results as a page with plots")
     parser.add_argument("--mitsuba", metavar="PYTHON", default="python3", help="a Python that has Mitsuba 3")
     parser.add_argument("--luxcore", metavar="PYTHON", default="python3", help="a Python that has pyluxcore")
-    parser.add_argument("--threads", type=int, default=1, help="of every renderer in time-to-error (default 1)")
+    parser.add_argument("--threads", type=positive, default=1, help="of every renderer in time-to-error (default 1)")
+    parser.add_argument("--reference-spp", type=positive, metavar="N",
+                        help="samples a pixel that time-to-error's references have at least (default 8192, quick 1024)")
     parser.add_argument("--processor-time", action="store_true",
                         help="traversal on one thread by the processor's time: for machines that others use too")
     parser.add_argument("--check-arguments", action="store_true", help=argparse.SUPPRESS)
@@ -54,7 +63,8 @@ def context_of(options):
     release = ROOT / "build" / "release"
     return Context(root=ROOT, program=release / "parhelion", native=release / "benchmarks" / "parhelion_bench",
                    work=ROOT / "build" / "bench", data=data if data.is_dir() else None, quick=options.quick,
-                   processor_time=options.processor_time, threads=options.threads, mitsuba=options.mitsuba,
+                   processor_time=options.processor_time, threads=options.threads,
+                   reference_spp=options.reference_spp or (1024 if options.quick else 8192), mitsuba=options.mitsuba,
                    luxcore=options.luxcore)
 
 

@@ -1,4 +1,5 @@
 // The in-process benchmarks as a program: progress on stderr, one JSON document on stdout.
+#include "benchmarks/native/average.h"
 #include "benchmarks/native/build.h"
 #include "benchmarks/native/traversal.h"
 #include "host/error.h"
@@ -25,6 +26,13 @@ int run(int argc, char** argv) {
     trace->add_flag("--processor-time", traversal.processor_time);
     construct->add_flag("--quick", build.quick);
     construct->add_option("--threads", build.threads)->check(CLI::PositiveNumber);
+    auto* average = app.add_subcommand("average", "the weighted mean of images");
+    std::string output;
+    std::vector<std::string> files;
+    std::vector<double> weights;
+    average->add_option("--output", output)->required();
+    average->add_option("--image", files)->required();
+    average->add_option("--weight", weights)->required();
     app.require_subcommand(1);
     try {
         app.parse(argc, argv);
@@ -33,6 +41,14 @@ int run(int argc, char** argv) {
         return static_cast<int>(ExitCode::ok);
     } catch (const CLI::ParseError& e) {
         throw InputError(e.what());
+    }
+    if (average->parsed()) {
+        if (files.size() != weights.size()) throw InputError("as many --weight as --image");
+        std::vector<WeightedImage> images;
+        for (std::size_t i = 0; i < files.size(); i++)
+            images.push_back({files[i], weights[i]});
+        average_images(images, output);
+        return static_cast<int>(ExitCode::ok);
     }
     // PoCL reads it when it is first asked for devices.
     setenv("POCL_MAX_PTHREAD_COUNT", fmt::format("{}", traversal.threads).c_str(), 1);

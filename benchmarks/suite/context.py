@@ -23,6 +23,7 @@ class Context:
     quick: bool
     processor_time: bool
     threads: int           # for the images beside other renderers
+    reference_spp: int     # samples a pixel that references have at least
     mitsuba: str           # a Python that has Mitsuba 3
     luxcore: str           # a Python that has pyluxcore
 

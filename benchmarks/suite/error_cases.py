@@ -4,10 +4,11 @@ import hashlib
 import pathlib
 
 from . import exr
-from .context import say, thread_counts
+from .context import run, say, thread_counts
 from .renderer import render
 
 REFERENCE_SEED = 900_001
+STEP_SPP, ENOUGH_SPP = 8192, 1 << 17
 SIZE, CLOSED_FORM_SIZE = 128, 64
 
 
@@ -75,20 +76,33 @@ def cases(context):
 
 
 def reference(context, case):
-    """{image, spp}: the truth as an image, or a long render of our own that is kept between runs."""
+    """{image, spp}: the truth as an image, or long renders of our own that are kept and grow with every run."""
     folder = context.folder("references")
     if case.truth:
         image = folder / f"{case.scene.parent.name}.exr"
         exr.write_constant(image, case.size, case.size, case.truth)
         return {"image": image, "spp": None}
-    spp = 1024 if context.quick else 16384
     key = hashlib.sha256(case.scene.read_bytes() + f"{case.size}".encode()).hexdigest()[:12]
-    kept = sorted(folder.glob(f"{key}-*.exr"), key=lambda p: int(p.stem.split("-")[1]))
-    if kept and int(kept[-1].stem.split("-")[1]) >= spp:
-        return {"image": kept[-1], "spp": int(kept[-1].stem.split("-")[1])}
-    say(f"{case.name}: rendering the reference, {spp} spp; it is kept")
-    image, part = folder / f"{key}-{spp}.exr", folder / f"part-{key}.exr"
-    render(context, case.scene, spp=spp, size=case.size, threads=max(thread_counts()), seed=REFERENCE_SEED,
-           output=part)
-    part.rename(image)
-    return {"image": image, "spp": spp}
+    kept = {int(p.stem.split("-")[1]): p for p in folder.glob(f"{key}-*.exr")}
+    spp = max(kept, default=0)
+    grown = False
+    while spp < context.reference_spp or not (grown or context.quick or spp >= ENOUGH_SPP):
+        spp, grown = _grow(context, case, folder, key, spp, kept.get(spp)), True
+        kept = {spp: folder / f"{key}-{spp}.exr"}
+    return {"image": kept[spp], "spp": spp}
+
+
+def _grow(context, case, folder, key, spp, image):
+    """Renders more samples with a seed of their own and takes them into the mean; returns how many there are then."""
+    more = min(STEP_SPP, context.reference_spp - spp) if spp < context.reference_spp else STEP_SPP
+    say(f"{case.name}: {more} more samples a pixel for the reference, which has {spp}")
+    part = render(context, case.scene, spp=more, size=case.size, threads=max(thread_counts()),
+                  seed=REFERENCE_SEED + spp, output=folder / f"part-{key}.exr")["image"]
+    images = [(part, more)] + ([(image, spp)] if image else [])
+    target = folder / f"{key}-{spp + more}.exr"
+    run([context.native, "average", "--output", target,
+         *(a for file, weight in images for a in ("--image", file, "--weight", weight))])
+    part.unlink()
+    if image:
+        image.unlink()
+    return spp + more
