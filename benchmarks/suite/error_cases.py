@@ -8,7 +8,7 @@ from .context import run, say, thread_counts
 from .renderer import render
 
 REFERENCE_SEED = 900_001
-STEP_SPP, ENOUGH_SPP = 8192, 1 << 17
+STEP_SPP = 8192
 SIZE, CLOSED_FORM_SIZE = 128, 64
 
 
@@ -76,7 +76,7 @@ def cases(context):
 
 
 def reference(context, case):
-    """{image, spp}: the truth as an image, or long renders of our own that are kept and grow with every run."""
+    """{image, spp}: the truth as an image, or long renders of our own that are kept."""
     folder = context.folder("references")
     if case.truth:
         image = folder / f"{case.scene.parent.name}.exr"
@@ -85,16 +85,15 @@ def reference(context, case):
     key = hashlib.sha256(case.scene.read_bytes() + f"{case.size}".encode()).hexdigest()[:12]
     kept = {int(p.stem.split("-")[1]): p for p in folder.glob(f"{key}-*.exr")}
     spp = max(kept, default=0)
-    grown = False
-    while spp < context.reference_spp or not (grown or context.quick or spp >= ENOUGH_SPP):
-        spp, grown = _grow(context, case, folder, key, spp, kept.get(spp)), True
+    while spp < context.reference_spp:
+        spp = _grow(context, case, folder, key, spp, kept.get(spp))
         kept = {spp: folder / f"{key}-{spp}.exr"}
     return {"image": kept[spp], "spp": spp}
 
 
 def _grow(context, case, folder, key, spp, image):
     """Renders more samples with a seed of their own and takes them into the mean; returns how many there are then."""
-    more = min(STEP_SPP, context.reference_spp - spp) if spp < context.reference_spp else STEP_SPP
+    more = min(STEP_SPP, context.reference_spp - spp)
     say(f"{case.name}: {more} more samples a pixel for the reference, which has {spp}")
     part = render(context, case.scene, spp=more, size=case.size, threads=max(thread_counts()),
                   seed=REFERENCE_SEED + spp, output=folder / f"part-{key}.exr")["image"]

@@ -22,14 +22,14 @@ def _number(value):
 class Axis:
     """Maps values to pixels."""
 
-    def __init__(self, values, low_pixel, high_pixel, log):
+    def __init__(self, values, low_pixel, high_pixel, log, room_above=1.06):
         self.log, self.low_pixel, self.high_pixel = log, low_pixel, high_pixel
         if log:
             self.low, self.high = math.log10(min(values)), math.log10(max(values))
             room = max(0.05, 0.04 * (self.high - self.low))
             self.low, self.high = self.low - room, self.high + room
         else:
-            self.low, self.high = 0.0, max(values) * 1.06 or 1.0
+            self.low, self.high = 0.0, max(values) * room_above or 1.0
 
     def pixel(self, value):
         v = math.log10(value) if self.log else value
@@ -103,7 +103,8 @@ def bars(title, y_label, groups, names, line=None):
     values = [v for _, row in groups for v in row if v is not None]
     if not values:
         return ""
-    y_axis = Axis(values + ([line] if line else []), HEIGHT - BOTTOM, TOP, False)
+    y_axis = Axis(values + ([line] if line else []), HEIGHT - BOTTOM, TOP, False,
+                  1.08 + 0.06 * len(names))  # the legend stands above the bars
     parts = _frame(title, "", y_label)
     _grid(parts, None, y_axis, x_ticks=False)
     width = (WIDTH - RIGHT - LEFT) / len(groups)
@@ -116,7 +117,7 @@ def bars(title, y_label, groups, names, line=None):
             parts.append(f'<rect x="{x:.1f}" y="{y:.1f}" width="{bar:.1f}" height="{HEIGHT - BOTTOM - y:.1f}" '
                          f'fill="{COLOURS[i % len(COLOURS)]}"><title>{html.escape(label)}, '
                          f'{html.escape(names[i])}: {value:.4g}</title></rect>')
-        parts.append(_text(LEFT + (g + 0.5) * width, HEIGHT - BOTTOM + 16 + 13 * (g % 2), label, size=11))
+        parts.append(_text(LEFT + (g + 0.5) * width, HEIGHT - BOTTOM + 16 + 13 * (g % 2), label, size=10))
     if line:
         y = y_axis.pixel(line)
         parts.append(f'<path d="M{LEFT} {y:.1f}H{WIDTH - RIGHT}" stroke="black" stroke-dasharray="5 4"/>')

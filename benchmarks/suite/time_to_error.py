@@ -8,9 +8,11 @@ from .peers.found import found
 from .renderer import compare, render
 
 # spp: number of independent runs
-PLAN = {1: 16, 4: 8, 16: 6, 64: 4, 256: 2, 1024: 1}
-PEER_PLAN = {4: 4, 16: 3, 64: 2, 256: 1}
-QUICK_PLAN, QUICK_PEER_PLAN = {1: 6, 16: 2, 64: 2}, {4: 1, 16: 1}
+PLAN = {1: 16, 4: 6, 16: 4, 64: 4, 256: 2, 1024: 1, 4096: 1}
+PEER_PLAN = {1: 3, 4: 3, 16: 3, 64: 2, 256: 1, 1024: 1, 4096: 1}
+QUICK_PLAN, QUICK_PEER_PLAN = {1: 6, 16: 2, 64: 2}, {4: 1, 16: 1, 64: 1}
+# Seconds of rendering for one renderer and scene; a job that would not fit is left out.
+BUDGET, QUICK_BUDGET, CLOSED_FORM_SHARE = 10.0, 1.5, 0.3
 
 # How many times as fast to an equal error, at least; LuxCore and others: ahead.
 LEAST = {"Cycles": 4, "Mitsuba llvm_ad_rgb": 4, "pbrt-v4": 15}
@@ -59,17 +61,25 @@ def measure_case(context, case, peers):
             "skipped": skipped}
 
 
+def _budget(context, case):
+    return (QUICK_BUDGET if context.quick else BUDGET) * (CLOSED_FORM_SHARE if case.truth else 1)
+
+
 def _ours(context, case, reference):
     plan = QUICK_PLAN if context.quick else PLAN
     render(context, case.scene, spp=1, size=case.size)  # compiles
-    runs = []
+    runs, left, rate = [], _budget(context, case), 0.0
     for spp, count in plan.items():
         for k in range(count):
+            if runs and rate * spp > left:
+                continue
             stats = render(context, case.scene, spp=spp, size=case.size, threads=context.threads, seed=1000 * spp + k)
             runs.append({"spp": spp, "seconds": stats["time"]["render_seconds"],
                          "process_seconds": stats["process_seconds"],
                          "pixels": case.size**2,
                          **compare(context, stats["image"], reference["image"])})
+            left -= runs[-1]["seconds"]
+            rate = runs[-1]["seconds"] / spp
     return _curve("Parhelion", runs)
 
 
@@ -78,7 +88,7 @@ def _peers(context, case, reference, peer):
     folder = context.folder("images")
     jobs = [{"spp": spp, "seed": 7 + 1000 * spp + k, "output": folder / f"peer-{spp}-{k}.exr"}
             for spp, count in plan.items() if spp <= peer.most_spp for k in range(count)]
-    runs = peer.render(case.scene, case.size, context.threads, jobs)
+    runs = peer.render(case.scene, case.size, context.threads, jobs, _budget(context, case))
     return _curve(peer.name, [{"spp": r["spp"], "seconds": r["seconds"], "process_seconds": r["process_seconds"],
                                "pixels": case.size**2, **compare(context, r["output"], reference["image"])}
                               for r in runs])

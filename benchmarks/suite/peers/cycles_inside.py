@@ -13,6 +13,7 @@ import bpy
 import mathutils
 
 sys.path.append(str(pathlib.Path(__file__).parent))
+from job_list import run_jobs  # noqa: E402
 from mitsuba_xml import Refused, read_scene  # noqa: E402
 
 BOUNCES = 8
@@ -123,14 +124,17 @@ def main():
     add_lights(scene, target.collection)
     add_camera(scene, target.collection)
     configure(order)
-    for job in order["jobs"]:
+
+    def render(job):
         begin = time.perf_counter()
         target.cycles.samples, target.cycles.seed = job["spp"], job["seed"]
         target.render.filepath = job["output"]
         bpy.ops.render.render(write_still=True)
         busy = time.perf_counter() - begin
-        print("RESULT", json.dumps({"seconds": max(0.01, render_seconds(job["output"])), "busy_seconds": busy}),
-              flush=True)
+        return {"seconds": max(0.01, render_seconds(job["output"])), "busy_seconds": busy}
+
+    for _, result in run_jobs(order, render):
+        print("RESULT", json.dumps(result), flush=True)
 
 
 main()

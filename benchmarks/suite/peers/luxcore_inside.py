@@ -11,6 +11,7 @@ import time
 import pyluxcore
 
 sys.path.append(str(pathlib.Path(__file__).parent))
+from job_list import run_jobs  # noqa: E402
 from mitsuba_xml import Refused, point, read_scene  # noqa: E402
 
 DEPTH = 10  # counts as 9 vertices, like the other renderers
@@ -114,8 +115,8 @@ def main():
     except Refused as e:
         print(f"REFUSED LuxCore cannot be given {e}", flush=True)
         return
-    for job in order["jobs"]:
-        print("RESULT", json.dumps(render(scene, order, job)), flush=True)
+    for _, result in run_jobs(order, lambda job: render(scene, order, job)):
+        print("RESULT", json.dumps(result), flush=True)
 
 
 main()

@@ -7,6 +7,9 @@ import time
 import drjit
 import mitsuba
 
+sys.path.append(str(pathlib.Path(__file__).parent))
+from job_list import run_jobs  # noqa: E402
+
 
 def load(order):
     """The scene with a float32 film of the wanted size."""
@@ -38,7 +41,8 @@ def main():
     drjit.set_thread_count(order["threads"])
     scene = load(order)
     warm = set()
-    for job in order["jobs"]:
+
+    def render(job):
         begin = time.perf_counter()
         warm_up = 0.0
         if order["warm_up"] and job["spp"] not in warm:
@@ -48,8 +52,10 @@ def main():
         drjit.set_thread_count(max(2, order["threads"]))  # with one thread its EXR code waits for ever
         mitsuba.Bitmap(image).write(job["output"])
         drjit.set_thread_count(order["threads"])
-        print("RESULT", json.dumps({"seconds": seconds, "warm_up_seconds": warm_up,
-                                    "busy_seconds": time.perf_counter() - begin}), flush=True)
+        return {"seconds": seconds, "warm_up_seconds": warm_up, "busy_seconds": time.perf_counter() - begin}
+
+    for _, result in run_jobs(order, render):
+        print("RESULT", json.dumps(result), flush=True)
 
 
 main()

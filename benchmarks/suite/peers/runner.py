@@ -20,17 +20,19 @@ class Peer:
     most_spp: int = 1 << 20
     environment: dict = dataclasses.field(default_factory=dict)
 
-    def render(self, scene, size, threads, jobs):
-        """jobs: [{spp, seed, output}]. Gives the same with seconds and process_seconds (start included).
+    def render(self, scene, size, threads, jobs, budget_seconds):
+        """jobs: [{spp, seed, output}], samples ascending. Gives those that fitted the budget, with seconds and
+        process_seconds (start included).
 
         Raises Failure with the reason where the scene cannot be translated."""
         order = {**self.settings, "scene": str(scene), "size": size, "threads": threads, "warm_up": self.warm_up,
+                 "budget_seconds": budget_seconds,
                  "jobs": [{**job, "output": str(job["output"])} for job in jobs]}
         done = run([*self.prefix, HERE / self.script, *self.separator(), json.dumps(order)],
                    self.environment, accepted=(0, 1, 3))
         results = [json.loads(line.split(" ", 1)[1]) for line in done.stdout.splitlines()
                    if line.startswith("RESULT ")]
-        if len(results) != len(jobs):
+        if not results:
             refusals = [line for line in done.stdout.splitlines() if line.startswith("REFUSED ")]
             last = (done.stderr or done.stdout).strip().splitlines()[-1:]
             raise Failure(refusals[0].split(" ", 1)[1] if refusals else f"{self.name} failed: {' '.join(last)}")
