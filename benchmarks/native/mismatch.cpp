@@ -60,7 +60,8 @@ public:
         double clear_ours = ours.primitive < 0 ? INFINITY : clearness(at(ours), r);
         double clear_theirs = theirs.primitive < 0 ? INFINITY : clearness(at(theirs), r);
         bool edge = std::fabs(clear_ours) <= 1 || std::fabs(clear_theirs) <= 1;
-        bool both = ours.primitive >= 0 && theirs.primitive >= 0;
+        bool both =
+            ours.primitive >= 0 && theirs.primitive >= 0 && clear_ours > 0 && clear_theirs > 0;
         if (edge || (both && same_distance(r, ours, theirs))) {
             counts_.ties++;
             return;

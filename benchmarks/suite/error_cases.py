@@ -102,6 +102,7 @@ def _grow(context, case, folder, key, spp, image):
     run([context.native, "average", "--output", target,
          *(a for file, weight in images for a in ("--image", file, "--weight", weight))])
     part.unlink()
+    part.with_suffix(".json").unlink()
     if image:
         image.unlink()
     return spp + more
