@@ -53,6 +53,8 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     params.state_stride = static_cast<int>(sizes_.state_stride());
     params.segment_size = sizes_.segment_size;
     params.segment_stride = sizes_.segment_stride;
+    params.film_width = params.film_height = params.crop_width = params.crop_height = side;
+    params.blocks_x = sizes_.blocks_x;
     params.root = params.camera_root = root;
     bind(intersect_, params);
     bind(shadow_, params);
@@ -65,7 +67,6 @@ void OpenClTracer::bind(cl::Kernel& kernel, const RenderParams& params) {
     SCENE_BUFFERS(BIND_SCENE)
     WORK_BUFFERS(BIND_WORK)
     kernel.setArg(params_argument, params);
-    kernel.setArg(wave_argument, WaveParams{});
 }
 
 void OpenClTracer::prepare(std::span<const Ray> rays, int depth, bool any_hit) {
@@ -85,7 +86,11 @@ void OpenClTracer::prepare(std::span<const Ray> rays, int depth, bool any_hit) {
         fill_shadows(rays);
     else
         fill_paths(rays);
-    (any_hit ? shadow_ : intersect_).setArg(depth_argument, depth);
+    cl::Kernel& kernel = any_hit ? shadow_ : intersect_;
+    constexpr std::size_t block = BLOCK_PIXELS;
+    kernel.setArg(wave_argument,
+                  WaveParams{0, static_cast<int>((count_ + block - 1) / block), 0, 1});
+    kernel.setArg(depth_argument, depth);
 }
 
 void OpenClTracer::fill_paths(std::span<const Ray> rays) {

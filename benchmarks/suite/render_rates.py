@@ -69,10 +69,13 @@ def rates(context):
         row = _row(f"depth {depth}", render(context, cornell, spp=spp, options=["--max-depth", depth]))
         result["depth"].append({"max_depth": depth, **row})
     folder = context.folder("scenes")
-    for triangles in (10_000, 100_000, 1_000_000) + (() if context.quick else (5_000_000,)):
+    for triangles in (10_000, 100_000, 1_000_000) + (() if context.quick else (10_000_000,)):
         say(f"render: {triangles} triangles")
         row = _row(f"{triangles} triangles", render(context, scenes.hills(folder, triangles), spp=spp))
         result["triangles"].append(row)
+    if not context.quick:
+        checks.append(check("render, 10 M triangles: peak memory of the process, GiB",
+                            result["triangles"][-1]["host_peak_bytes"] / 2**30, most=24))
     for lamps in (1, 10, 100, 1000) + (() if context.quick else (10_000,)):
         say(f"render: {lamps} lamps")
         stats = render(context, scenes.many_lamps(folder, lamps), spp=spp)
