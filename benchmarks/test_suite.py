@@ -20,10 +20,11 @@ class Fits(unittest.TestCase):
         self.assertAlmostEqual(exponent, 1.5)
         self.assertAlmostEqual(factor, 3)
 
-    def test_values_between_and_beyond_points_lie_on_the_line(self):
-        errors, seconds = [0.1, 0.05, 0.025], [1, 4, 16]
+    def test_times_between_and_beyond_points_lie_on_the_line(self):
+        points = [(1, 0.1), (4, 0.05), (5, 0.06), (16, 0.025)]  # the third is no better than the second
         for level, expected in ((0.1, 1), (0.0707106781, 2), (0.025, 16), (0.0125, 64), (0.2, 0.25)):
-            self.assertAlmostEqual(fits.value_at(errors, seconds, level) / expected, 1, places=6)
+            self.assertAlmostEqual(fits.time_at(points, level) / expected, 1, places=6)
+        self.assertIsNone(fits.time_at([(1, 0.1), (4, 0.1)], 0.05))
 
     def test_bias_and_variance_are_told_apart(self):
         found = error_fit.mean_square_fit([(t, 0.01**2 + 0.004 / t, 4) for t in (1, 4, 16, 64, 256)])
@@ -64,6 +65,7 @@ class Scenes(unittest.TestCase):
         self.assertEqual(mitsuba_xml.point(box["to_world"], (0, 0, 0)), (2.78, 2.73, -8.0))
         spheres = mitsuba_xml.read_scene(HERE.parent / "scenes/glass-and-metal/scene.xml")["spheres"]
         self.assertEqual([s["material"]["kind"] for s in spheres], ["glass", "metal"])
+        self.assertEqual(box["max_depth"], 10)
 
     def test_what_is_not_known_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:

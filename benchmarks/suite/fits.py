@@ -12,13 +12,20 @@ def power_fit(xs, ys):
     return exponent, math.exp(my - exponent * mx)
 
 
-def value_at(xs, ys, x):
-    """y at x on the polyline through the points in log-log; the end segments go on outside."""
-    points = sorted(zip(xs, ys))
-    i = max(1, min(len(points) - 1, sum(1 for p in points if p[0] < x)))
-    (x0, y0), (x1, y1) = points[i - 1], points[i]
-    share = math.log(x / x0) / math.log(x1 / x0)
-    return y0 * (y1 / y0) ** share
+def time_at(points, error):
+    """Seconds to an error on the polyline through [(seconds, error)] in log-log; the end segments go on outside.
+
+    Only points better than all before count. None where fewer than two are left."""
+    falling = []
+    for seconds, e in sorted(points):
+        if seconds > 0 and e > 0 and (not falling or e < falling[-1][1]):
+            falling.append((seconds, e))
+    if len(falling) < 2:
+        return None
+    i = max(1, min(len(falling) - 1, sum(1 for p in falling if p[1] > error)))
+    (t0, e0), (t1, e1) = falling[i - 1], falling[i]
+    share = math.log(error / e0) / math.log(e1 / e0)
+    return t0 * (t1 / t0) ** share
 
 
 def median(values):

@@ -92,7 +92,8 @@ def _error_scene(scene, table, plots):
              p.get("flip"), p.get("efficiency")) for c in curves for p in c["points"]]
     fitted = [(c["name"], c["exponent_of_spp"], c["fit"]["bias"], c["fit"]["bias_low"], c["fit"]["bias_high"],
                (c["paths_per_second"] or 0) / 1e6) for c in curves if c.get("fit")]
-    faster = [(s["name"], *(f"{row['speed_up']:.2f}{' *' if row['extrapolated'] else ''}" for row in s["levels"]))
+    faster = [(s["name"], *(f"{row['speed_up']:.2f}{' *' if row['extrapolated'] else ''}" if row["speed_up"] else None
+                           for row in s["levels"]))
               for s in scene["speed_up"]]
     drawings = [svg.lines(f"{scene['name']}: RMSE", "seconds rendering", "RMSE",
                           [(c["name"], [(p["seconds"], p["rmse"]) for p in c["points"]]) for c in curves]),

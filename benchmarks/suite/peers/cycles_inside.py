@@ -1,6 +1,6 @@
 """Runs inside Blender: renders one scene file with Cycles, with several samples and seeds.
 
-Plain path tracing: no clamp, no denoiser, no adaptive sampling, no light threshold, box filter, 8 bounces.
+Plain path tracing: no clamp, no denoiser, no adaptive sampling, no light threshold, box filter.
 """
 import json
 import math
@@ -15,9 +15,6 @@ import mathutils
 sys.path.append(str(pathlib.Path(__file__).parent))
 from job_list import run_jobs  # noqa: E402
 from mitsuba_xml import Refused, read_scene  # noqa: E402
-
-BOUNCES = 8
-
 
 def shader(material, name):
     made = bpy.data.materials.new(name)
@@ -80,7 +77,7 @@ def add_camera(scene, collection):
     bpy.context.scene.camera = made
 
 
-def configure(order):
+def configure(order, max_depth):
     render, cycles = bpy.context.scene.render, bpy.context.scene.cycles
     render.resolution_x = render.resolution_y = order["size"]
     render.resolution_percentage = 100
@@ -94,7 +91,8 @@ def configure(order):
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.light_sampling_threshold = 0
     cycles.blur_glossy = 0
     cycles.caustics_reflective = cycles.caustics_refractive = True
-    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = BOUNCES
+    bounces = max(0, max_depth - 2)  # light is sampled at the camera's hit and after each bounce
+    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = bounces
     cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
     cycles.use_auto_tile = False
     cycles.debug_bvh_type = "STATIC_BVH"
@@ -123,7 +121,7 @@ def main():
     add_shapes(scene, target.collection)
     add_lights(scene, target.collection)
     add_camera(scene, target.collection)
-    configure(order)
+    configure(order, scene["max_depth"])
 
     def render(job):
         begin = time.perf_counter()

@@ -14,9 +14,6 @@ sys.path.append(str(pathlib.Path(__file__).parent))
 from job_list import run_jobs  # noqa: E402
 from mitsuba_xml import Refused, point, read_scene  # noqa: E402
 
-DEPTH = 10  # counts as 9 vertices, like the other renderers
-
-
 def material(name, m):
     """Properties of a material; its emission is a radiance."""
     key = f"scene.materials.{name}"
@@ -84,8 +81,8 @@ def settings(order, job):
     return properties({
         "renderengine.type": ["PATHCPU"], "renderengine.seed": [job["seed"]],
         "native.threads.count": [order["threads"]], "sampler.type": ["SOBOL"], "sampler.sobol.adaptive.strength": [0.0],
-        "path.pathdepth.total": [DEPTH], "path.pathdepth.diffuse": [DEPTH], "path.pathdepth.glossy": [DEPTH],
-        "path.pathdepth.specular": [DEPTH], "path.clamping.variance.maxvalue": [0.0],
+        "path.pathdepth.total": [order["max_depth"]], "path.pathdepth.diffuse": [order["max_depth"]], "path.pathdepth.glossy": [order["max_depth"]],
+        "path.pathdepth.specular": [order["max_depth"]], "path.clamping.variance.maxvalue": [0.0],
         "path.clamping.radiance.maxvalue": [0.0],
         "film.width": [order["size"]], "film.height": [order["size"]],
         "film.filter.type": ["BOX"], "film.filter.width": [0.5], "film.imagepipelines.0.0.type": ["NOP"],
@@ -111,10 +108,12 @@ def main():
     order = json.loads(sys.argv[-1])
     pyluxcore.Init()
     try:
-        scene = build(read_scene(order["scene"]), order["size"])
+        description = read_scene(order["scene"])
+        scene = build(description, order["size"])
     except Refused as e:
         print(f"REFUSED LuxCore cannot be given {e}", flush=True)
         return
+    order["max_depth"] = description["max_depth"]
     for _, result in run_jobs(order, lambda job: render(scene, order, job)):
         print("RESULT", json.dumps(result), flush=True)
 

@@ -7,6 +7,9 @@ import pathlib
 import xml.etree.ElementTree as xml
 
 
+UNLIMITED = 1000  # edges of a path
+
+
 class Refused(Exception):
     pass
 
@@ -169,7 +172,11 @@ class Reader:
             raise Refused("a reconstruction filter other than box")
         if sensor.get("type") != "perspective":
             raise Refused(f"sensor {sensor.get('type')}")
-        scene = {"to_world": self.transform(sensor), "fov": float(self.child(sensor, "fov")), "meshes": [],
+        integrator = self.root.find("integrator")
+        if integrator.get("type") != "path":
+            raise Refused(f"integrator {integrator.get('type')}")
+        depth = int(self.child(integrator, "max_depth", -1))
+        scene = {"max_depth": UNLIMITED if depth < 0 else depth, "to_world": self.transform(sensor), "fov": float(self.child(sensor, "fov")), "meshes": [],
                  "spheres": [], "points": [], "sky": (0.0, 0.0, 0.0)}
         for shape in self.root.findall("shape"):
             self._add_shape(scene, shape)
