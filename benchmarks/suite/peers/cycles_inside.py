@@ -16,6 +16,7 @@ sys.path.append(str(pathlib.Path(__file__).parent))
 from job_list import run_jobs  # noqa: E402
 from mitsuba_xml import Refused, read_scene  # noqa: E402
 
+
 def shader(material, name):
     made = bpy.data.materials.new(name)
     made.use_nodes = True

@@ -14,6 +14,7 @@ sys.path.append(str(pathlib.Path(__file__).parent))
 from job_list import run_jobs  # noqa: E402
 from mitsuba_xml import Refused, point, read_scene  # noqa: E402
 
+
 def material(name, m):
     """Properties of a material; its emission is a radiance."""
     key = f"scene.materials.{name}"
