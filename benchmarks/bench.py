@@ -13,6 +13,7 @@ import json
 import os
 import pathlib
 import sys
+import tempfile
 
 sys.dont_write_bytecode = True
 from suite import first_image, machine, native, page, render_rates, time_to_error  # noqa: E402
@@ -26,6 +27,7 @@ SUBCOMMANDS = {
     "compile": first_image.first_image,
 }
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+WORK = ROOT / "build" / "bench"
 
 
 class Parser(argparse.ArgumentParser):
@@ -58,11 +60,11 @@ def arguments():
     return parser.parse_args()
 
 
-def context_of(options):
+def context_of(options, scratch):
     data = pathlib.Path(os.environ.get("PARHELION_DATA", ROOT.parent / "shared" / "data"))
     release = ROOT / "build" / "release"
     return Context(root=ROOT, program=release / "parhelion", native=release / "benchmarks" / "parhelion_bench",
-                   work=ROOT / "build" / "bench", data=data if data.is_dir() else None, quick=options.quick,
+                   work=WORK, scratch=scratch, data=data if data.is_dir() else None, quick=options.quick,
                    processor_time=options.processor_time, threads=options.threads,
                    reference_spp=options.reference_spp or (1024 if options.quick else 8192), mitsuba=options.mitsuba,
                    luxcore=options.luxcore)
@@ -70,10 +72,15 @@ def context_of(options):
 
 def measure(context, names):
     document = {"hardware": machine.hardware(), "versions": machine.versions(context), "started": machine.now(),
-                "quick": context.quick, "results": {}, "checks": []}
+                "quick": context.quick, "results": {}, "checks": [], "failed": {}}
     for name in names:
         say(name)
-        result, checks = SUBCOMMANDS[name](context)
+        try:
+            result, checks = SUBCOMMANDS[name](context)
+        except Failure as e:  # the others' results are not lost with it
+            say(f"{name}: {e}")
+            document["failed"][name] = str(e)
+            continue
         document["results"][name] = result
         document["checks"] += checks
     document["ended"] = machine.now()
@@ -98,20 +105,19 @@ def main():
     options = arguments()
     if options.check_arguments:
         return
-    context = context_of(options)
-    context.work.mkdir(parents=True, exist_ok=True)
+    WORK.mkdir(parents=True, exist_ok=True)
     names = SUBCOMMANDS if options.subcommand == "all" else [options.subcommand]
-    try:
-        document = measure(context, names)
-    except Failure as e:
-        sys.exit(f"parhelion bench: {e}")
+    with tempfile.TemporaryDirectory(prefix="run-", dir=WORK) as scratch:
+        document = measure(context_of(options, pathlib.Path(scratch)), names)
     neither = not options.json and not options.html
     name = options.subcommand
     if options.json or neither:
-        write(options.json or context.work / f"{name}.json", json.dumps(document, indent=1) + "\n")
+        write(options.json or WORK / f"{name}.json", json.dumps(document, indent=1) + "\n")
     if options.html or neither:
-        write(options.html or context.work / f"{name}.html", page.render(document))
+        write(options.html or WORK / f"{name}.html", page.render(document))
     summary(document)
+    if document["failed"]:
+        sys.exit(4)
 
 
 if __name__ == "__main__":

@@ -49,7 +49,7 @@ class Drawing(unittest.TestCase):
         self.assertEqual(len([e for e in bars.iter() if e.tag.endswith("rect")]), 3)
 
     def test_the_page_escapes_and_marks_what_was_missed(self):
-        document = {"hardware": {"cores": 2}, "versions": {}, "started": "", "ended": "", "quick": True, "results": {},
+        document = {"hardware": {"cores": 2}, "versions": {}, "started": "", "ended": "", "quick": True, "results": {}, "failed": {},
                     "checks": [check("fast <enough>", 0.5, least=1)]}
         text = page.render(document)
         self.assertIn("fast &lt;enough&gt;", text)

@@ -18,7 +18,8 @@ class Context:
     root: pathlib.Path     # of the checkout
     program: pathlib.Path  # parhelion
     native: pathlib.Path   # parhelion_bench
-    work: pathlib.Path     # what the benchmarks write, kept between runs
+    work: pathlib.Path     # what is kept between runs
+    scratch: pathlib.Path  # this run's own, empty at its start
     data: pathlib.Path | None  # shared scenes, where there are some
     quick: bool
     processor_time: bool

@@ -96,13 +96,11 @@ def _grow(context, case, folder, key, spp, image):
     more = min(STEP_SPP, context.reference_spp - spp)
     say(f"{case.name}: {more} more samples a pixel for the reference, which has {spp}")
     part = render(context, case.scene, spp=more, size=case.size, threads=max(thread_counts()),
-                  seed=REFERENCE_SEED + spp, output=folder / f"part-{key}.exr")["image"]
+                  seed=REFERENCE_SEED + spp, output=context.scratch / "part.exr")["image"]
     images = [(part, more)] + ([(image, spp)] if image else [])
     target = folder / f"{key}-{spp + more}.exr"
     run([context.native, "average", "--output", target,
          *(a for file, weight in images for a in ("--image", file, "--weight", weight))])
-    part.unlink()
-    part.with_suffix(".json").unlink()
     if image:
         image.unlink()
     return spp + more

@@ -9,16 +9,16 @@ SCENES = (("Cornell box", "cornell-box/scene.xml"), ("glass and metal", "glass-a
           ("bunny, sky", "bunny/env.xml"))
 
 
-def _caches(context):
-    """Folders of our own for everything that outlives a run: our cache and PoCL's."""
-    folder = context.folder("caches")
-    return folder, {"PARHELION_CACHE_DIR": str(folder / "parhelion"), "POCL_CACHE_DIR": str(folder / "pocl")}
+def _empty_caches(context):
+    """Empties the folders of everything that outlives a run, ours and PoCL's; returns what points there."""
+    folders = {"PARHELION_CACHE_DIR": context.scratch / "parhelion", "POCL_CACHE_DIR": context.scratch / "pocl"}
+    for folder in folders.values():
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+    return {name: str(folder) for name, folder in folders.items()}
 
 
 def _start(context, scene, environment):
-    (folder := context.folder("caches")).mkdir(exist_ok=True)
-    for name in ("parhelion", "pocl"):
-        (folder / name).mkdir(parents=True, exist_ok=True)
     stats = render(context, scene, spp=1, threads=0, environment=environment)
     return {"process_seconds": stats["process_seconds"], "peak_bytes": stats["peak_bytes"],
             **{k: stats["time"][f"{k}_seconds"] for k in ("load", "bvh", "compile", "upload", "render", "write")},
@@ -30,10 +30,9 @@ def first_image(context):
     repeats = 1 if context.quick else 5
     for name, file in SCENES[:2] if context.quick else SCENES:
         say(f"compile: {name}")
-        folder, environment = _caches(context)
         cold, warm = [], []
         for _ in range(repeats):
-            shutil.rmtree(folder, ignore_errors=True)
+            environment = _empty_caches(context)
             cold.append(_start(context, context.scene(file), environment))
             warm += [_start(context, context.scene(file), environment) for _ in range(2)]
         result["scenes"].append({"name": name, "cold": _middle(cold), "warm": _middle(warm)})

@@ -54,6 +54,7 @@ def render(document):
              f"<style>{STYLE}</style></head><body><h1>Parhelion benchmarks</h1>", _facts(document)]
     if document["quick"]:
         parts.append("<p>A quick run: fewer repeats and sizes.</p>")
+    parts += [f"<p>{name} failed: {html.escape(text)}</p>" for name, text in document["failed"].items()]
     parts.append(_checks(document["checks"]))
     for name, result in document["results"].items():
         section = getattr(page_sections, name.replace("-", "_"))

@@ -8,8 +8,7 @@ def render(context, scene, *, spp, size=512, threads=1, seed=0, options=(), envi
     """Renders a scene file, `size` pixels a side.
 
     Returns its --stats with `process_seconds`, `peak_bytes` and `image`, the file."""
-    folder = context.folder("images")
-    image = output or folder / "ours.exr"
+    image = output or context.scratch / "ours.exr"
     stats = image.with_suffix(".json")
     done = run([context.program, "render", scene, "-o", image, "--stats", stats, "--force", "--quiet", "--allow-outside",
                 "--size", f"{size}x{size}", "--spp", spp, "--threads", threads, "--seed", seed, *options], environment)

@@ -86,8 +86,7 @@ def _ours(context, case, reference):
 
 def _peers(context, case, reference, peer):
     plan = QUICK_PEER_PLAN if context.quick else PEER_PLAN
-    folder = context.folder("images")
-    jobs = [{"spp": spp, "seed": 7 + 1000 * spp + k, "output": folder / f"peer-{spp}-{k}.exr"}
+    jobs = [{"spp": spp, "seed": 7 + 1000 * spp + k, "output": context.scratch / f"peer-{spp}-{k}.exr"}
             for spp, count in plan.items() if spp <= peer.most_spp for k in range(count)]
     runs = peer.render(case.scene, case.size, context.threads, jobs, _budget(context, case))
     return _curve(peer.name, [{"spp": r["spp"], "seconds": r["seconds"], "process_seconds": r["process_seconds"],
