@@ -73,6 +73,10 @@ class Scenes(unittest.TestCase):
             with self.assertRaisesRegex(mitsuba_xml.Refused, "roughdielectric"):
                 mitsuba_xml.read_scene(path)
 
+    def test_lights_that_reflect_are_refused(self):
+        with self.assertRaisesRegex(mitsuba_xml.Refused, "emit and reflect"):
+            mitsuba_xml.read_scene(HERE.parent / "scenes/closed_form/enclosure_box/scene.xml")
+
     def test_made_scenes_are_xml(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)

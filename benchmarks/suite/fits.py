@@ -13,7 +13,8 @@ def power_fit(xs, ys):
 
 
 def time_at(points, error):
-    """Seconds to an error on the polyline through [(seconds, error)] in log-log; the end segments go on outside.
+    """Seconds to an error on the polyline through [(seconds, error)] in log-log; outside it, from its nearer end on
+    with the slope of all points.
 
     Only points better than all before count. None where fewer than two are left."""
     falling = []
@@ -22,7 +23,11 @@ def time_at(points, error):
             falling.append((seconds, e))
     if len(falling) < 2:
         return None
-    i = max(1, min(len(falling) - 1, sum(1 for p in falling if p[1] > error)))
+    if not falling[-1][1] <= error <= falling[0][1]:
+        end = falling[0] if error > falling[0][1] else falling[-1]
+        slope, _ = power_fit(*zip(*falling))
+        return end[0] * (error / end[1]) ** (1 / slope)
+    i = next(i for i in range(1, len(falling)) if falling[i][1] <= error)
     (t0, e0), (t1, e1) = falling[i - 1], falling[i]
     share = math.log(error / e0) / math.log(e1 / e0)
     return t0 * (t1 / t0) ** share
@@ -34,3 +39,8 @@ def median(values):
 
 def root_mean_square(values):
     return math.sqrt(statistics.fmean(v * v for v in values))
+
+
+def standard_error(values):
+    """Of the mean of at least two values."""
+    return statistics.stdev(values) / math.sqrt(len(values))

@@ -42,7 +42,7 @@ WALLS = ('<rotate x="1" angle="-90"/><translate y="-2"/>', '<rotate x="1" angle=
          '<translate z="-2"/>', '<rotate y="1" angle="180"/><translate z="2"/>')
 LAMP = ('<shape type="rectangle"><transform name="to_world"><scale value="{size}"/><rotate x="1" angle="90"/>'
         '<translate value="{x}, 1.99, {z}"/></transform><emitter type="area"><rgb name="radiance" value="{radiance}"/>'
-        '</emitter></shape>')
+        '</emitter><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape>')
 
 
 def _write(folder, name, parts):

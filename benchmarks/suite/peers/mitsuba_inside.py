@@ -14,6 +14,7 @@ from job_list import run_jobs  # noqa: E402
 def load(order):
     """The scene with a float32 film of the wanted size."""
     config = mitsuba.parser.ParserConfig(order["variant"])
+    config.unused_properties = mitsuba.LogLevel.Debug  # of older files, which it would refuse otherwise
     path = pathlib.Path(order["scene"])
     mitsuba.file_resolver().prepend(str(path.parent))
     state = mitsuba.parser.parse_file(config, str(path))

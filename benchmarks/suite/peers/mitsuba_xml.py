@@ -173,9 +173,9 @@ class Reader:
         if sensor.get("type") != "perspective":
             raise Refused(f"sensor {sensor.get('type')}")
         integrator = self.root.find("integrator")
-        if integrator.get("type") != "path":
+        if integrator.get("type") not in ("path", "direct"):
             raise Refused(f"integrator {integrator.get('type')}")
-        depth = int(self.child(integrator, "max_depth", -1))
+        depth = 2 if integrator.get("type") == "direct" else int(self.child(integrator, "max_depth", -1))
         scene = {"max_depth": UNLIMITED if depth < 0 else depth, "to_world": self.transform(sensor), "fov": float(self.child(sensor, "fov")), "meshes": [],
                  "spheres": [], "points": [], "sky": (0.0, 0.0, 0.0)}
         for shape in self.root.findall("shape"):
@@ -188,6 +188,8 @@ class Reader:
         emitter = shape.find("emitter")
         item = {"material": self.material_of(shape)}
         if emitter is not None:
+            if any(item["material"].get("colour", (1,))):
+                raise Refused("surfaces that emit and reflect")
             item["material"] = {"kind": "light", "colour": rgb(self.child(emitter, "radiance"))}
         if shape.get("type") == "sphere":
             if emitter is not None or shape.find("transform") is not None:
