@@ -52,8 +52,8 @@ kernel void generate(KERNEL_PARAMETERS) {
         x += params.crop_x;
         y += params.crop_y;
         Int pixel = y * params.film_width + x;
-        Random4 random = random4(asUint(pixel), (Uint)(uint)sample, (Uint)(uint)dimension_camera,
-                                 (Uint)(uint)params.seed);
+        Random4 random = sampler_draw(asUint(pixel), (Uint)(uint)sample,
+                                      (Uint)(uint)dimension_camera, (Uint)(uint)params.seed);
         FilterSample fx = filter_sample(filter_table, params.filter_bins, uniform01(random.x));
         FilterSample fy = filter_sample(filter_table, params.filter_bins, uniform01(random.y));
         vec2 film_position = v2(toReal(x) + .5f + fx.offset, toReal(y) + .5f + fy.offset);

@@ -170,7 +170,7 @@ kernel void shade(KERNEL_PARAMETERS) {
         // ---- next event estimation: one shadow ray with its finished contribution
         if (HAS(next_event)) {
             Random4 r =
-                random4(asUint(v.pixel), asUint(v.sample), bounce + dimension_emitter, seed);
+                sampler_draw(asUint(v.pixel), asUint(v.sample), bounce + dimension_emitter, seed);
             Int row = pick_light(light_aliases, params.light_count, r.x, r.y);
             EmitterSample e =
                 emitter_sample(load_Light(lights, row), surface.p, uniform2(r.z, r.w));
@@ -206,7 +206,8 @@ kernel void shade(KERNEL_PARAMETERS) {
 
         // ---- go on in a direction of the BSDF's choice
         if (HAS(scattering)) {
-            Random4 r = random4(asUint(v.pixel), asUint(v.sample), bounce + dimension_bsdf, seed);
+            Random4 r =
+                sampler_draw(asUint(v.pixel), asUint(v.sample), bounce + dimension_bsdf, seed);
             BsdfSample b = bsdf_sample(material, wo, uniform2(r.x, r.y), uniform01(r.z));
             vec3 throughput = mul3(v.throughput, b.weight);
             Real eta_scale = v.eta_scale * b.eta;

@@ -20,6 +20,9 @@ constexpr std::array<std::pair<std::string_view, IntegratorKind>, 5> integrators
      {"depth", IntegratorKind::depth},
      {"aov", IntegratorKind::aov}}};
 
+#define NAMED_PATTERN(name) std::pair{std::string_view(#name), SamplePattern::name},
+constexpr std::array patterns{SAMPLE_PATTERNS(NAMED_PATTERN)};
+
 /// Integers separated by `separator`; fewer or more than N, or anything else, is an error that
 /// shows the form.
 template<std::size_t N>
@@ -58,16 +61,16 @@ void set_crop(const std::string& text, Film& film) {
     film.crop_x = x, film.crop_y = y, film.crop_width = width, film.crop_height = height;
 }
 
-void set_integrator(const std::string& name, Integrator& integrator) {
+/// The value that `table` has for the name; throws InputError that lists the names there are.
+template<class Value, std::size_t N>
+Value named(std::string_view option, const std::string& name,
+            const std::array<std::pair<std::string_view, Value>, N>& table) {
     std::string names;
-    for (const auto& [known, kind] : integrators) {
-        if (known == name) {
-            integrator.kind = kind;
-            return;
-        }
+    for (const auto& [known, value] : table) {
+        if (known == name) return value;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", known);
     }
-    throw InputError(fmt::format("--integrator '{}': there are {}", name, names));
+    throw InputError(fmt::format("{} '{}': there are {}", option, name, names));
 }
 
 AovRequest aov_request(const std::string& name) {
@@ -89,7 +92,9 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
     Film& film = scene.film;
     if (film.crop_width == 0)
         film.crop_x = film.crop_y = 0, film.crop_width = film.width, film.crop_height = film.height;
-    if (command.integrator) set_integrator(*command.integrator, scene.integrator);
+    if (command.integrator)
+        scene.integrator.kind = named("--integrator", *command.integrator, integrators);
+    if (command.sampler) scene.sampler.pattern = named("--sampler", *command.sampler, patterns);
     if (command.samples) scene.sampler.samples_per_pixel = at_least("--spp", *command.samples, 1);
     if (command.max_depth)
         scene.integrator.max_depth = at_least("--max-depth", *command.max_depth, -1);

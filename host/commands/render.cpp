@@ -89,6 +89,8 @@ std::vector<Option> image_options(RenderCommand& c) {
         {"--size", &c.size, "Film size, WIDTHxHEIGHT"},
         {"--crop", &c.crop, "Part of the film, X,Y,WIDTH,HEIGHT"},
         {"!--no-next-event", &c.next_event, "Do not sample emitters"},
+        {"--sampler", &c.sampler,
+         "sobol (a pattern over the samples of a pixel, the default) or independent"},
         {"--seed", &c.seed, "Seed of the random numbers"},
         {"--aov",
          &c.aovs,

@@ -116,6 +116,7 @@ RenderReport start_report(const Scene& scene, const Device& device, const Device
     report.width = scene.film.crop_width, report.height = scene.film.crop_height;
     report.samples_per_pixel = scene.sampler.samples_per_pixel;
     report.seed = scene.sampler.seed;
+    report.sampler = sample_pattern_names[static_cast<std::size_t>(scene.sampler.pattern)];
     report.primitives = flat.primitives.size();
     report.lights = flat.lights.size();
     report.device_scene_bytes = flat.bytes();

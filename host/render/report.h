@@ -22,6 +22,7 @@ struct RenderReport {
     std::string scene_file, device, driver;
     int lanes = 1, width = 0, height = 0, samples_per_pixel = 0;
     std::uint32_t seed = 0;
+    std::string sampler; ///< pattern of the samples: "sobol" or "independent"
     double load_seconds = 0.0, bvh_seconds = 0.0, compile_seconds = 0.0, upload_seconds = 0.0,
            render_seconds = 0.0, write_seconds = 0.0;
     std::vector<StageReport> stages;

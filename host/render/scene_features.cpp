@@ -131,6 +131,7 @@ std::uint64_t scene_features(const Scene& scene) {
     add_traversal(scene, set);
     for (const Emitter& e : scene.emitters)
         std::visit([&](const auto& x) { add_emitter(x, set); }, e);
+    set.add_if(scene.sampler.pattern == SamplePattern::sobol, feature_sobol);
     set.add_if(scene.camera.aperture_radius > 0.0, feature_thin_lens);
     set.add_if(scene.film.filter.kind != FilterKind::box, feature_reconstruction_filter);
     set.add_if(integrator.kind == IntegratorKind::normals, feature_view_normals);

@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -221,16 +222,26 @@ struct Integrator {
         -1; ///< in edges from the camera: 1 shows emitters only, 2 direct light; -1 no limit
     int rr_depth = 5; ///< Russian roulette starts after this many vertices
     bool hide_emitters = false;
-    bool second_moment =
-        false; ///< wrapped in `moment`: also store the mean of the squared radiance
+    bool second_moment = false; ///< wrapped in `moment`: also store the mean of the squared
+                                ///< radiance. What follows from it is the variance of one sample; a
+                                ///< mean of n in the sobol pattern has less than an n-th of it.
     bool emitter_samples = true,
          bsdf_samples = true; ///< `direct`: which of the two strategies are used
     std::vector<AovRequest> aovs;
 };
 
+/// How the samples of a pixel lie: Owen-scrambled points of a low-discrepancy sequence, or
+/// independent random numbers.
+#define SAMPLE_PATTERNS(X) X(sobol) X(independent)
+#define PATTERN_ENUM(name) name,
+enum class SamplePattern { SAMPLE_PATTERNS(PATTERN_ENUM) };
+#define PATTERN_NAME(name) #name,
+inline constexpr std::array sample_pattern_names{SAMPLE_PATTERNS(PATTERN_NAME)};
+
 struct Sampler {
     std::string plugin =
-        "independent"; ///< as written; every kind is mapped to ours (see Scene::notes)
+        "independent"; ///< as written; the pattern does not follow it (see Scene::notes)
+    SamplePattern pattern = SamplePattern::sobol;
     int samples_per_pixel = 16;
     std::uint32_t seed = 0;
 };

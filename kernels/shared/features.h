@@ -30,6 +30,7 @@
     X(vertex_uvs)         /* some mesh has texture coordinates, and something reads them */         \
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
     X(ggx) X(beckmann) X(anisotropy)                                                               \
+    X(sobol)              /* samples of a pixel in a pattern; without: independent */               \
     X(thin_lens)                                                                                   \
     X(reconstruction_filter) /* any but the box */                                                 \
     X(next_event)         /* direct light is sampled at every vertex */                            \

@@ -10,6 +10,7 @@
 #include "shared/intersect.h"
 #include "shared/sampler.h"
 #include "shared/shading_frame.h"
+#include "shared/sobol.h"
 #include "shared/spawn_ray.h"
 #include "shared/warp.h"
 

@@ -46,6 +46,9 @@ def parhelion_render(program, case, spp, seeds, extra):
                 str(max(1, spp // len(seeds))),
                 "--seed",
                 str(seed),
+                # The tests' smallest believed variance is that of one independent sample.
+                "--sampler",
+                "independent",
                 "--force",
                 "--quiet",
             ]

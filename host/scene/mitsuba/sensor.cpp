@@ -123,7 +123,8 @@ Sampler read_sampler(const Document& document, const Object& object, Notes& note
         p.integer("seed", 0, 0, std::numeric_limits<std::uint32_t>::max()));
     if (object.plugin != "independent")
         p.note("", "sampler " + in_quotes(object.plugin) +
-                       " is replaced by the one sampler there is; only the noise differs");
+                       " does not choose the pattern of the samples, --sampler does; only the "
+                       "noise differs");
     p.finish();
     return sampler;
 }

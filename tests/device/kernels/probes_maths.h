@@ -19,18 +19,25 @@ FN ProbeOut probe_exp_negative(ProbeIn i) { return out1(exp_negative(-i.w[0])); 
 FN ProbeOut probe_atan2(ProbeIn i) { return out1(atan2R(i.w[0], i.w[1])); }
 FN ProbeOut probe_acos(ProbeIn i) { return out2(v2(acosR(i.w[0]), acosR(-i.w[0]))); }
 
-FN ProbeOut probe_random4(ProbeIn i) {
-    Random4 r = random4(wordUint(i.w[0]), wordUint(i.w[1]), wordUint(i.w[2]), wordUint(i.w[3]));
+/// Four numbers, and the integers themselves in halves: a word that happens to be no number has no
+/// bits of its own.
+FN ProbeOut out_random4(Random4 r) {
     ProbeOut o = put2(no_output(), 0, uniform2(r.x, r.y));
     o = put2(o, 2, uniform2(r.z, r.w));
-    // The integers themselves, in halves: a word that happens to be no number has no bits of its
-    // own.
     o = put2(put2(o, 4, v2(toReal(asInt(r.x & 0xffffu)), toReal(asInt(r.x >> 16)))), 6,
              v2(toReal(asInt(r.y & 0xffffu)), toReal(asInt(r.y >> 16))));
     o = put2(put2(o, 8, v2(toReal(asInt(r.z & 0xffffu)), toReal(asInt(r.z >> 16)))), 10,
              v2(toReal(asInt(r.w & 0xffffu)), toReal(asInt(r.w >> 16))));
     Uint high = mulHigh(r.x, r.y);
     return put2(o, 12, v2(toReal(asInt(high & 0xffffu)), toReal(asInt(high >> 16))));
+}
+FN ProbeOut probe_random4(ProbeIn i) {
+    return out_random4(
+        random4(wordUint(i.w[0]), wordUint(i.w[1]), wordUint(i.w[2]), wordUint(i.w[3])));
+}
+FN ProbeOut probe_sobol4(ProbeIn i) {
+    return out_random4(
+        sobol4(wordUint(i.w[0]), wordUint(i.w[1]), wordUint(i.w[2]), wordUint(i.w[3])));
 }
 FN ProbeOut probe_disk_uniform(ProbeIn i) { return out2(disk_uniform(in2(i, 0))); }
 FN ProbeOut probe_hemisphere_cosine(ProbeIn i) { return out3(hemisphere_cosine(in2(i, 0))); }
@@ -96,7 +103,7 @@ FN ProbeOut probe_russian_roulette(ProbeIn i) {
     PROBE(neighbours, "f", 2)                                                                      \
     PROBE(sincos_turns, "u", 2)                                                                    \
     PROBE(exp_negative, "s", 1) PROBE(atan2, "ff", 1) PROBE(acos, "c", 2)                          \
-        PROBE(random4, "bbbb", 14) PROBE(disk_uniform, "uu", 2) PROBE(hemisphere_cosine, "uu", 3)  \
+        PROBE(random4, "bbbb", 14) PROBE(sobol4, "bbbb", 14) PROBE(disk_uniform, "uu", 2) PROBE(hemisphere_cosine, "uu", 3)  \
             PROBE(sphere_uniform, "uu", 3) PROBE(triangle_uniform, "uu", 2) PROBE(frame, "dp", 15) \
                 PROBE(frame_from_tangent, "dp", 9) PROBE(reflect, "dd", 6)                         \
                     PROBE(refract_local, "di", 3) PROBE(refract_about, "ddi", 3)                   \
