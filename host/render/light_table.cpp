@@ -2,9 +2,12 @@
 // power.
 #include "host/render/light_table.h"
 
+#include "host/render/parallelograms.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -35,7 +38,7 @@ struct Row {
     LightRecord light{};
     double power = 0.0;
     double area = 0.0;
-    int primitive = -1;
+    int first_primitive = -1, primitive_count = 1; ///< that shine; -1: none does
 };
 
 Row make_row(EmitterKind kind, const Rgb& radiance) {
@@ -54,21 +57,46 @@ bool normals_oppose_winding(const VertexRecord& v, const glm::dvec3& winding) {
     return glm::dot(sum, winding) < 0.0;
 }
 
-Row triangle_row(const DeviceScene& scene, int index, const Rgb& radiance) {
-    const PrimitiveRecord& p = scene.primitives[index];
-    glm::dvec3 a = point_a(p), b = point_b(p), c = point_c(p);
-    glm::dvec3 winding = glm::cross(b - a, c - a);
-    bool swap = (p.flags & PRIMITIVE_NORMALS) && !scene.vertices.empty() &&
-                normals_oppose_winding(scene.vertices[index], winding);
-    Row row = make_row(emitter_area_triangle, radiance);
+bool emits_from_back(const DeviceScene& scene, int triangle) {
+    const PrimitiveRecord& p = scene.primitives[triangle];
+    glm::dvec3 winding = glm::cross(point_b(p) - point_a(p), point_c(p) - point_a(p));
+    return (p.flags & PRIMITIVE_NORMALS) && !scene.vertices.empty() &&
+           normals_oppose_winding(scene.vertices[triangle], winding);
+}
+
+/// A light of corners a, b, c, turned over if `swap`; `area`: of the part of its plane that shines,
+/// in areas of the triangle a, b, c.
+Row corners_row(EmitterKind kind, const std::array<glm::dvec3, 3>& corners, bool swap, double area,
+                const Rgb& radiance) {
+    const auto& [a, b, c] = corners;
+    Row row = make_row(kind, radiance);
     set_a(row.light, a);
     set_b(row.light, swap ? c : b);
     set_c(row.light, swap ? b : c);
-    row.area = 0.5 * glm::length(winding);
+    row.area = area * 0.5 * glm::length(glm::cross(b - a, c - a));
     return row;
 }
 
-Row primitive_row(const DeviceScene& scene, int index, const Rgb& radiance) {
+std::array<glm::dvec3, 3> corners_of(const PrimitiveRecord& p) {
+    return {point_a(p), point_b(p), point_c(p)};
+}
+
+Row triangle_row(const DeviceScene& scene, int index, const Rgb& radiance) {
+    return corners_row(emitter_area_triangle, corners_of(scene.primitives[index]),
+                       emits_from_back(scene, index), 1.0, radiance);
+}
+
+/// The triangle and the next one, which together are a parallelogram.
+Row parallelogram_row(const DeviceScene& scene, int index, const Rgb& radiance) {
+    auto shape = parallelogram_of(corners_of(scene.primitives[index]),
+                                  corners_of(scene.primitives[index + 1]));
+    Row row = corners_row(emitter_area_parallelogram, shape.value(), emits_from_back(scene, index),
+                          2.0, radiance);
+    row.primitive_count = 2;
+    return row;
+}
+
+Row primitive_row(const DeviceScene& scene, int index, bool pair, const Rgb& radiance) {
     const PrimitiveRecord& p = scene.primitives[index];
     float side = (p.flags & PRIMITIVE_FLIPPED) ? -1.0f : 1.0f;
     Row row;
@@ -89,10 +117,11 @@ Row primitive_row(const DeviceScene& scene, int index, const Rgb& radiance) {
         row.area = pi * glm::length(glm::cross(point_b(p), point_c(p)));
         break;
     default:
-        row = triangle_row(scene, index, radiance);
+        row =
+            pair ? parallelogram_row(scene, index, radiance) : triangle_row(scene, index, radiance);
     }
     row.power = pi * row.area * brightness(radiance);
-    row.primitive = index;
+    row.first_primitive = index;
     return row;
 }
 
@@ -156,10 +185,16 @@ double scene_radius(std::span<const PrimitiveRecord> primitives) {
 
 std::vector<Row> collect_rows(const Scene& scene, const DeviceScene& device) {
     std::vector<Row> rows;
-    for (std::size_t i = 0; i < device.primitives.size(); i++) {
-        const Shape& shape = scene.shapes[device.primitives[i].shape];
-        if (shape.radiance)
-            rows.push_back(primitive_row(device, static_cast<int>(i), *shape.radiance));
+    int first = 0;
+    for (const Shape& shape : scene.shapes) {
+        const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+        int count = mesh ? static_cast<int>(mesh->triangles.size()) : 1;
+        if (shape.radiance) {
+            std::vector<bool> pairs = mesh ? starts_parallelogram(*mesh) : std::vector{false};
+            for (int i = 0; i < count; i += pairs[i] ? 2 : 1)
+                rows.push_back(primitive_row(device, first + i, pairs[i], *shape.radiance));
+        }
+        first += count;
     }
     double radius = scene_radius(device.primitives);
     for (const Emitter& emitter : scene.emitters)
@@ -210,7 +245,8 @@ void add_light_table(const Scene& scene, DeviceScene& out) {
         double pmf = row.power / total;
         row.light.pmf = static_cast<float>(pmf);
         row.light.density = row.area > 0.0 ? static_cast<float>(pmf / row.area) : 0.0f;
-        if (row.primitive >= 0) out.primitives[row.primitive].light = static_cast<int>(i);
+        for (int k = 0; row.first_primitive >= 0 && k < row.primitive_count; k++)
+            out.primitives[row.first_primitive + k].light = static_cast<int>(i);
         if (row.light.kind == emitter_constant) out.constant_light = static_cast<int>(i);
         out.lights.push_back(row.light);
     }

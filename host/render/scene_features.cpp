@@ -4,6 +4,7 @@
 #include "host/render/material_records.h"
 
 #include "host/render/device_scene.h"
+#include "host/render/parallelograms.h"
 
 #include <algorithm>
 
@@ -62,13 +63,20 @@ bool reads_uv(const Scene& scene, const FeatureSet& set) {
            std::any_of(scene.integrator.aovs.begin(), scene.integrator.aovs.end(), is_uv);
 }
 
+void add_mesh_emitter(const Mesh& mesh, FeatureSet& set) {
+    std::vector<bool> starts = starts_parallelogram(mesh);
+    auto pairs = std::count(starts.begin(), starts.end(), true);
+    set.add_if(pairs > 0, feature_emitter_area_parallelogram);
+    set.add_if(2 * pairs < std::ssize(starts), feature_emitter_area_triangle);
+}
+
 void add_shapes(const Scene& scene, bool uv, FeatureSet& set) {
     for (const Shape& shape : scene.shapes) {
         if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
             set.add(feature_shape_triangle);
             set.add_if(!mesh->normals.empty(), feature_vertex_normals);
             set.add_if(!mesh->uvs.empty() && uv, feature_vertex_uvs);
-            set.add_if(shape.radiance.has_value(), feature_emitter_area_triangle);
+            if (shape.radiance) add_mesh_emitter(*mesh, set);
         } else if (std::holds_alternative<Sphere>(shape.geometry)) {
             set.add(feature_shape_sphere);
             set.add_if(shape.radiance.has_value(), feature_emitter_area_sphere);
@@ -99,8 +107,9 @@ void add_emitter(const DirectionalEmitter&, FeatureSet& set) {
 void add_emitter(const ConstantEmitter&, FeatureSet& set) { set.add(feature_emitter_constant); }
 
 constexpr std::uint64_t meetable_emitters =
-    feature_bit(feature_emitter_area_triangle) | feature_bit(feature_emitter_area_sphere) |
-    feature_bit(feature_emitter_area_disk) | feature_bit(feature_emitter_constant);
+    feature_bit(feature_emitter_area_triangle) | feature_bit(feature_emitter_area_parallelogram) |
+    feature_bit(feature_emitter_area_sphere) | feature_bit(feature_emitter_area_disk) |
+    feature_bit(feature_emitter_constant);
 
 #define EMITTER_BIT(name) | feature_bit(feature_emitter_##name)
 constexpr std::uint64_t all_emitters = 0 EMITTERS(EMITTER_BIT);

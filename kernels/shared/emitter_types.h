@@ -54,6 +54,23 @@ FN EmitterSample emitter_area_finish(Light l, vec3 p, vec3 q, vec3 q_error, vec3
     return s;
 }
 
+/// Turns a sample of a shape that was chosen uniformly by solid angle (sr), where it was, into one
+/// with that density.
+FN EmitterSample emitter_solid_angle_finish(Light l, EmitterSample s, Mask chosen,
+                                            Real solid_angle) {
+    Mask lit = chosen & (s.pdf > R(0.));
+    Real pdf = l.pmf / sel(lit, solid_angle, R(1.));
+    s.pdf = sel(lit, pdf, s.pdf);
+    s.weight = sel3(lit, scale3(light_radiance(l), R(1.) / pdf), s.weight);
+    return s;
+}
+
+/// Density in solid angle of a shape seen under `solid_angle`: uniform in it, or by area if small.
+FN Real emitter_solid_angle_pdf(Light l, Real solid_angle, Real by_area) {
+    Mask wide = solid_angle >= R(SOLID_ANGLE_LEAST);
+    return sel(wide, l.pmf / sel(wide, solid_angle, R(1.)), by_area);
+}
+
 /// Density in solid angle of choosing the point q by area, seen from p.
 FN Real emitter_area_pdf(Light l, vec3 p, vec3 q, vec3 q_normal) {
     vec3 to = sub3(q, p);

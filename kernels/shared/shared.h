@@ -11,6 +11,7 @@
 #include "shared/sampler.h"
 #include "shared/shading_frame.h"
 #include "shared/sobol.h"
+#include "shared/solid_angle.h"
 #include "shared/spawn_ray.h"
 #include "shared/warp.h"
 
@@ -29,6 +30,7 @@
 #include "shared/bsdf_thindielectric.h"
 
 #include "shared/emitter_area_disk.h"
+#include "shared/emitter_area_parallelogram.h"
 #include "shared/emitter_area_sphere.h"
 #include "shared/emitter_area_triangle.h"
 #include "shared/emitter_constant.h"

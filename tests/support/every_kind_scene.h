@@ -58,8 +58,10 @@ inline Scene every_kind_scene() {
     scene.shapes.push_back(shape_of(smooth, 4, 0));
     scene.shapes.push_back(
         shape_of(Disk{{0.9, 0.9, -0.3}, {0.5, 0, 0.1}, {0, 0.3, 0.2}, true}, 5, 5));
-    scene.shapes.push_back(
-        shape_of(quad({-0.5, 2.5, -0.5}, {1, 0, 0}, {0, 0, 1}), 0, no_material, Rgb(9, 8, 7)));
+    Mesh lamp = quad({-0.5, 2.5, -0.5}, {1, 0, 0}, {0, 0, 1}); // and a triangle at its side
+    lamp.positions.push_back({0.1, 2.6, 1.1});
+    lamp.triangles.push_back({3, 2, 4});
+    scene.shapes.push_back(shape_of(lamp, 0, no_material, Rgb(9, 8, 7)));
     scene.shapes.push_back(shape_of(Sphere{{2.2, 1.5, 0.4}, 0.2}, 0, no_material, Rgb(20, 10, 5)));
     scene.shapes.push_back(
         shape_of(Disk{{-2, 1.8, 0.5}, {0.3, 0, 0}, {0, 0.2, 0.3}}, 0, no_material, Rgb(6)));

@@ -46,13 +46,27 @@ Meeting meet(bool hit, f64::vec3 p, f64::vec3 w, double t) {
     return {hit, f64::add3(p, f64::scale3(w, t))};
 }
 
-Meeting trace_area_triangle(const f64::Light& l, f64::vec3 p, f64::vec3 w) {
+/// Where a ray meets the plane of a, b and c, in coordinates along b - a and c - a.
+struct PlaneMeeting {
+    double b1, b2, t;
+};
+
+PlaneMeeting trace_plane(const f64::Light& l, f64::vec3 p, f64::vec3 w) {
     f64::vec3 a = light_a(l), e1 = f64::sub3(light_b(l), a), e2 = f64::sub3(light_c(l), a);
     f64::vec3 h = f64::cross3(w, e2), from = f64::sub3(p, a), k = f64::cross3(from, e1);
     double determinant = f64::dot3(e1, h);
-    double b1 = f64::dot3(from, h) / determinant, b2 = f64::dot3(w, k) / determinant;
-    double t = f64::dot3(e2, k) / determinant;
-    return meet(t > 0 && b1 >= 0 && b2 >= 0 && b1 + b2 <= 1, p, w, t);
+    return {f64::dot3(from, h) / determinant, f64::dot3(w, k) / determinant,
+            f64::dot3(e2, k) / determinant};
+}
+
+Meeting trace_area_triangle(const f64::Light& l, f64::vec3 p, f64::vec3 w) {
+    PlaneMeeting m = trace_plane(l, p, w);
+    return meet(m.t > 0 && m.b1 >= 0 && m.b2 >= 0 && m.b1 + m.b2 <= 1, p, w, m.t);
+}
+
+Meeting trace_area_parallelogram(const f64::Light& l, f64::vec3 p, f64::vec3 w) {
+    PlaneMeeting m = trace_plane(l, p, w);
+    return meet(m.t > 0 && m.b1 >= 0 && m.b2 >= 0 && m.b1 <= 1 && m.b2 <= 1, p, w, m.t);
 }
 
 Meeting trace_area_disk(const f64::Light& l, f64::vec3 p, f64::vec3 w) {
@@ -81,7 +95,15 @@ using Cases = std::vector<LightCase>;
 Cases cases_area_triangle() {
     double area = std::sqrt(1 + 4 + 16.0) / 2;
     return {{0, {-1, -1, 2}, {-1, 1, 3}, {1, 0, 2}, area, 0, 0.25, {0, 0, 0}},
-            {0, {-1, -1, 2}, {-1, 1, 3}, {1, 0, 2}, area, 0, 1, {-0.2, 0.1, 2.2}}};
+            {0, {-1, -1, 2}, {-1, 1, 3}, {1, 0, 2}, area, 0, 1, {-0.2, 0.1, 2.2}},
+            {0, {-1, -1, 2}, {-1, 1, 3}, {1, 0, 2}, area, 0, 1, {20, 9, -99}}}; // small: by area
+}
+Cases cases_area_parallelogram() {
+    double area = std::sqrt(1 + 4 + 16.0);
+    return {{0, {-1, -1, 2}, {-1, 1, 3}, {1, 0, 2}, area, 0, 0.25, {0, 0, 0}},
+            {0, {-1, -1, 2}, {-1, 1, 3}, {1, 0, 2}, area, 0, 1, {-0.2, 0.1, 2.2}},
+            {0, {-1, -1, 2}, {-1, 1, 3}, {1, 0, 2}, area, 0, 1, {0, 0, 2.4999}}, // in front of it
+            {0, {-1, -1, 2}, {-1, 1, 3}, {1, 0, 2}, area, 0, 1, {20, 9, -99}}};  // small: by area
 }
 Cases cases_area_disk() {
     return {{0, {0.3, 0.2, 3}, {0.7, 0, 0}, {0, 0.7, 0}, M_PI * 0.49, -1, 0.5, {0, 0, 0}},
@@ -315,9 +337,12 @@ TEST_CASE("Emitters: irradiance is that of the closed forms", "[emitter]") {
         emitter_area_triangle, {0, 0, 1}, {0, 2, 1}, {1.5, 2, 1}, 1.5, 0, 0.5, {0, 0, 0}};
     LightCase second = {
         emitter_area_triangle, {0, 0, 1}, {1.5, 2, 1}, {1.5, 0, 1}, 1.5, 0, 0.5, {0, 0, 0}};
+    const double truth = M_PI * radiance * 0.194980345804875;
     Mean a = irradiance(first, up), b = irradiance(second, up);
-    CHECK(std::fabs(a.mean() + b.mean() - M_PI * radiance * 0.194980345804875) <=
-          4 * (a.error() + b.error()));
+    CHECK(std::fabs(a.mean() + b.mean() - truth) <= 4 * (a.error() + b.error()));
+    LightCase whole = {
+        emitter_area_parallelogram, {0, 0, 1}, {0, 2, 1}, {1.5, 0, 1}, 3, 0, 0.5, {0, 0, 0}};
+    check_irradiance(irradiance(whole, up), truth);
 }
 
 TEST_CASE("Emitters: points, spots and parallel light give their irradiance without noise",
@@ -340,6 +365,30 @@ TEST_CASE("Emitters: points, spots and parallel light give their irradiance with
         spot.p[0] = distance * std::sin(angle), spot.p[2] = 4 - distance * std::cos(angle);
         CHECK(red(spot) == Approx(2 * falloff / 9).epsilon(1e-5).margin(1e-7));
     }
+}
+
+TEST_CASE("Emitters: the cone of a sphere is right from its surface to a million radii away",
+          "[emitter]") {
+    Worst pdf, on_sphere;
+    Random random(85);
+    for (int n = 0; n < 100000; n++) {
+        LightCase c = cases_area_sphere()[0];
+        c.kind = emitter_area_sphere;
+        f64::vec3 w = random.direction<F64>();
+        double distance = 1 + random.log_between(1e-3, 1e6);
+        c.a[0] = w.x * distance, c.a[1] = w.y * distance, c.a[2] = w.z * distance;
+        f32::Light l = make_light<F32>(c);
+        // The same numbers in both precisions: what is left is the formulas' own rounding.
+        f64::Light exact = make_light<F64>(c);
+        exact.ax = l.ax, exact.ay = l.ay, exact.az = l.az;
+        f32::vec2 u = random.square<F32>();
+        auto s = emitter_sample(l, receiver<F32>(c), u);
+        auto truth = emitter_sample(exact, receiver<F64>(c), f64::v2(u.x, u.y));
+        pdf.add(std::fabs(s.pdf / truth.pdf - 1));
+        on_sphere.add(std::fabs(f64::length3(f64::sub3(wide(s.q), light_a(exact))) - 1) / distance);
+    }
+    CHECK(pdf.value() < 1e-5);
+    CHECK(on_sphere.value() < 1e-6);
 }
 
 TEST_CASE("Emitters: at the ends of the unit interval samples are finite", "[emitter]") {
