@@ -69,11 +69,16 @@ FN vec3 sky_emission(PathVertex v, global const LightRecord* lights, RenderParam
 
 /// Radiance of the emitters the lanes hit, weighted against next event estimation.
 FN vec3 surface_emission(PathVertex v, Primitive p, SurfaceInteraction s,
-                         global const LightRecord* lights) {
+                         global const LightRecord* lights, global const LightNodeRecord* nodes,
+                         global const int* leaves) {
     Mask emits = v.hit & (p.light >= 0);
     vec3 emitted = splat3(R(0.));
     if (someLane(emits)) {
-        Light light = load_Light(lights, sel(emits, p.light, (Int)0));
+        Int row = sel(emits, p.light, (Int)0);
+        Light light = load_Light(lights, row);
+        if (HAS(next_event))
+            light = light_picked_with(
+                light, light_pmf(nodes, leaves, v.origin, row, emits & finiteR(v.pdf)));
         EmitterHit e = emitter_hit(light, v.origin, v.direction, s.p);
         Real weight = R(1.);
         if (HAS(next_event)) weight = power_heuristic(v.pdf, e.pdf);
@@ -128,7 +133,8 @@ kernel void shade(KERNEL_PARAMETERS) {
         if (HAS(view_depth)) seen = splat3(v.t);
         if (HAS(view_normals) || HAS(view_depth)) seen = sel3(v.hit, seen, splat3(R(0.)));
         if (HAS(emission)) {
-            seen = add3(seen, surface_emission(v, primitive, surface, lights));
+            seen = add3(seen,
+                        surface_emission(v, primitive, surface, lights, light_nodes, light_leaves));
             if (HAS(emitter_constant)) {
                 Mask sky = v.active & !v.hit;
                 if (someLane(sky)) seen = sel3(sky, sky_emission(v, lights, params, depth), seen);
@@ -171,16 +177,24 @@ kernel void shade(KERNEL_PARAMETERS) {
         if (HAS(next_event)) {
             Random4 r =
                 sampler_draw(asUint(v.pixel), asUint(v.sample), bounce + dimension_emitter, seed);
-            Int row = pick_light(light_aliases, params.light_count, r.x, r.y);
-            EmitterSample e =
-                emitter_sample(load_Light(lights, row), surface.p, uniform2(r.z, r.w));
+            LightPick pick =
+                pick_light(light_nodes, surface.p, surface.ns, need_material, r.x, r.y);
+            Mask reached = need_material & (pick.pmf > R(0.));
+            Light light =
+                light_picked_with(load_Light(lights, pick.row), sel(reached, pick.pmf, R(1.)));
+            EmitterSample e = emitter_sample(light, surface.p, uniform2(r.z, r.w));
             vec3 wi = to_local(frame, e.wi);
             wi.z = wi.z * side;
             BsdfEval f = bsdf_eval(material, wo, wi);
             Real weight = R(1.);
-            if (HAS(emission) && HAS(scattering)) weight = power_heuristic(e.pdf, f.pdf);
+            if (HAS(emission) && HAS(scattering)) {
+                // A ray that meets the light does not know how this surface lies.
+                Real hint = e.pdf;
+                if (HAS(light_tree)) hint = e.pdf * (pick.pmf_hint / sel(reached, pick.pmf, R(1.)));
+                weight = power_heuristic(hint, f.pdf);
+            }
             vec3 contribution = scale3(mul3(mul3(v.throughput, f.f), e.weight), weight);
-            Mask lit = need_material & (max_component(contribution) > R(0.));
+            Mask lit = reached & (max_component(contribution) > R(0.));
             uint bits = maskBits(lit);
             if (bits) {
                 vec3 origin = leave_surface(surface.p, surface.error, surface.ng, e.wi);

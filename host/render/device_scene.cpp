@@ -121,7 +121,7 @@ std::vector<int> seen_by_camera(const DeviceScene& scene) {
 
 } // namespace
 
-static DeviceScene flatten_scene(const Scene& scene) {
+static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
     std::size_t count = primitive_count(scene);
     constexpr std::size_t most =
         std::numeric_limits<int>::max() / 16; // words of a record are indexed too
@@ -137,13 +137,14 @@ static DeviceScene flatten_scene(const Scene& scene) {
                    scene.shapes[i].geometry);
     for (const Material& material : scene.materials)
         out.materials.push_back(material_record(material.bsdf));
-    add_light_table(scene, out);
+    add_light_table(scene, choice, out);
+    if (!out.light_tree.nodes.empty()) out.features |= light_tree_features(out.features);
     out.filter_table = make_filter_table(scene.film.filter);
     return out;
 }
 
-DeviceScene make_device_scene(const Scene& scene) {
-    DeviceScene out = flatten_scene(scene);
+DeviceScene make_device_scene(const Scene& scene, LightChoice choice) {
+    DeviceScene out = flatten_scene(scene, choice);
     out.root = bvh_append(out.bvh, out.primitives, &out.bvh_statistics);
     out.camera_root = out.root;
     if (scene.integrator.hide_emitters) {
@@ -157,7 +158,8 @@ DeviceScene make_device_scene(const Scene& scene) {
 std::size_t DeviceScene::bytes() const {
     auto size = [](const auto& v) { return v.size() * sizeof(v[0]); };
     return size(primitives) + size(vertices) + size(materials) + size(lights) +
-           size(light_aliases) + size(filter_table) + size(bvh.nodes) + size(bvh.leaves);
+           size(light_tree.nodes) + size(light_tree.leaves) + size(filter_table) + size(bvh.nodes) +
+           size(bvh.leaves);
 }
 
 } // namespace parhelion

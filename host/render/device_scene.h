@@ -14,13 +14,22 @@
 
 namespace parhelion {
 
+struct LightTree {
+    std::vector<LightNodeRecord> nodes; ///< siblings side by side, the root itself left out
+    std::vector<int> leaves;            ///< the node of each light
+};
+
+/// How one of many lights is chosen: by what it may send to the point to be lit, or by its power
+/// alone.
+enum class LightChoice { importance, power };
+
 struct DeviceScene {
     LargeVector<PrimitiveRecord> primitives;
     LargeVector<VertexRecord>
         vertices; ///< parallel to primitives; empty where no mesh has attributes that are read
     std::vector<MaterialRecord> materials;
     std::vector<LightRecord> lights;
-    std::vector<LightAlias> light_aliases;
+    LightTree light_tree; ///< empty where there is only one light
     std::vector<FilterBin> filter_table;
     Bvh bvh;
     BvhStatistics bvh_statistics;
@@ -34,7 +43,7 @@ struct DeviceScene {
 
 /// Flattens a scene and builds its BVH. Throws InputError where the scene is larger than the
 /// device's 32-bit indices.
-DeviceScene make_device_scene(const Scene& scene);
+DeviceScene make_device_scene(const Scene& scene, LightChoice choice = LightChoice::importance);
 
 constexpr std::uint64_t feature_bit(Feature f) { return std::uint64_t{1} << f; }
 

@@ -2,6 +2,7 @@
 // power.
 #include "host/render/light_table.h"
 
+#include "host/render/light_bounds.h"
 #include "host/render/parallelograms.h"
 
 #include <glm/geometric.hpp>
@@ -205,40 +206,13 @@ std::vector<Row> collect_rows(const Scene& scene, const DeviceScene& device) {
 
 } // namespace
 
-std::vector<LightAlias> make_alias_table(std::span<const double> weights) {
-    std::size_t n = weights.size();
-    double sum = 0.0;
-    for (double w : weights)
-        sum += w;
-    std::vector<double> share(n);
-    std::vector<int> small, large;
-    for (std::size_t i = 0; i < n; i++) {
-        share[i] = weights[i] / sum * static_cast<double>(n);
-        (share[i] < 1.0 ? small : large).push_back(static_cast<int>(i));
-    }
-    std::vector<LightAlias> table(n);
-    for (std::size_t i = 0; i < n; i++)
-        table[i] = {~0u, static_cast<int>(i)};
-    while (!small.empty() && !large.empty()) {
-        int s = small.back(), l = large.back();
-        small.pop_back();
-        table[s] = {static_cast<unsigned>(std::min(share[s] * 4294967296.0, 4294967295.0)), l};
-        share[l] -= 1.0 - share[s];
-        if (share[l] < 1.0) {
-            large.pop_back();
-            small.push_back(l);
-        }
-    }
-    return table;
-}
-
-void add_light_table(const Scene& scene, DeviceScene& out) {
+void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
     std::vector<Row> rows = collect_rows(scene, out);
     double total = 0.0;
-    std::vector<double> powers;
+    std::vector<LightBounds> bounds;
     for (const Row& row : rows) {
         total += row.power;
-        powers.push_back(row.power);
+        bounds.push_back(light_bounds(row.light, row.area, row.power));
     }
     for (std::size_t i = 0; i < rows.size(); i++) {
         Row& row = rows[i];
@@ -250,7 +224,7 @@ void add_light_table(const Scene& scene, DeviceScene& out) {
         if (row.light.kind == emitter_constant) out.constant_light = static_cast<int>(i);
         out.lights.push_back(row.light);
     }
-    if (!rows.empty()) out.light_aliases = make_alias_table(powers);
+    out.light_tree = build_light_tree(bounds, choice);
 }
 
 } // namespace parhelion

@@ -41,7 +41,6 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.seed = static_cast<int>(scene.sampler.seed);
     p.max_depth = longest_path(scene.integrator);
     p.rr_depth = scene.integrator.rr_depth;
-    p.light_count = static_cast<int>(device.lights.size());
     p.constant_light = device.constant_light;
     // As in Mitsuba 3: a visible sky is part of the picture to `path`, and behind it to `direct`.
     p.sky_covers = scene.integrator.kind == IntegratorKind::path && !scene.integrator.hide_emitters;
@@ -134,7 +133,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
 
     progress.start("building the BVH");
     auto start = Clock::now();
-    DeviceScene flat = make_device_scene(scene);
+    DeviceScene flat = make_device_scene(scene, options.light_choice);
     RenderResult result;
     result.report = start_report(scene, device.device, flat, lanes);
     result.report.bvh_seconds = seconds_since(start);

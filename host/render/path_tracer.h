@@ -13,8 +13,9 @@ namespace parhelion {
 
 struct RenderOptions {
     WorkSplit split;
-    int lanes = 0;             ///< 0: what suits the device
-    bool portable = false;     ///< kernels without x86 intrinsics
+    int lanes = 0;         ///< 0: what suits the device
+    bool portable = false; ///< kernels without x86 intrinsics
+    LightChoice light_choice = LightChoice::importance;
     bool all_features = false; ///< kernels that can do everything, whatever the scene needs
 };
 

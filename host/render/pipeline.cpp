@@ -63,10 +63,12 @@ void Pipeline::upload(const DeviceScene& scene) {
         const LargeVector<VertexRecord>& vertices;
         const std::vector<MaterialRecord>& materials;
         const std::vector<LightRecord>& lights;
-        const std::vector<LightAlias>& light_aliases;
+        const std::vector<LightNodeRecord>& light_nodes;
+        const std::vector<int>& light_leaves;
         const std::vector<FilterBin>& filter_table;
-    } arrays{scene.bvh.nodes, scene.bvh.leaves, scene.primitives,    scene.vertices,
-             scene.materials, scene.lights,     scene.light_aliases, scene.filter_table};
+    } arrays{scene.bvh.nodes,        scene.bvh.leaves,        scene.primitives,
+             scene.vertices,         scene.materials,         scene.lights,
+             scene.light_tree.nodes, scene.light_tree.leaves, scene.filter_table};
 #define UPLOAD(type, name) scene_.name = make_buffer(device_, #name, arrays.name);
     SCENE_BUFFERS(UPLOAD)
 }

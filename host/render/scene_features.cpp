@@ -158,6 +158,11 @@ std::uint64_t traversal_features(std::size_t primitives) {
     return primitives > in_cache ? feature_bit(feature_ray_streams) : 0;
 }
 
+std::uint64_t light_tree_features(std::uint64_t scene_features) {
+    bool chooses = scene_features & feature_bit(feature_next_event);
+    return chooses ? feature_bit(feature_light_tree) : 0;
+}
+
 std::uint64_t neutral_features() {
 #define MATERIAL_BIT(name, sides) | feature_bit(feature_bsdf_##name)
 #define SHAPE_BIT(name) | feature_bit(feature_shape_##name)

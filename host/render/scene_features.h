@@ -13,6 +13,9 @@ namespace parhelion {
 /// as positions or colours.
 std::uint64_t scene_features(const Scene& scene);
 
+/// What more than one light adds to the features of a scene.
+std::uint64_t light_tree_features(std::uint64_t scene_features);
+
 /// Features that cost time but change no image where a scene does not need them: every kind of
 /// material, emitter and shape, and what looks for vertex normals, back materials and so on.
 std::uint64_t neutral_features();

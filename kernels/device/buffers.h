@@ -13,7 +13,8 @@
 #define SCENE_BUFFERS(X)                                                                           \
     X(BvhNode, bvh_nodes) X(BvhLeaf, bvh_leaves)                                                   \
     X(PrimitiveRecord, primitives) X(VertexRecord, vertices)                                       \
-    X(MaterialRecord, materials) X(LightRecord, lights) X(LightAlias, light_aliases)               \
+    X(MaterialRecord, materials) X(LightRecord, lights)                                            \
+    X(LightNodeRecord, light_nodes) X(int, light_leaves) /* the leaf of each light */              \
     X(FilterBin, filter_table)
 
 // element type, name: what a render works on

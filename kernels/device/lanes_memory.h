@@ -185,3 +185,6 @@ LOADER(Material, MATERIAL_FIELDS, MATERIAL_UNPACK, MATERIAL_ENUM)
 #define LIGHT_ENUM(type, name) light_word_##name,
 #define LIGHT_UNPACK(type, name) s.name = WORD_##type(record.word[light_word_##name]);
 LOADER(Light, LIGHT_FIELDS, LIGHT_UNPACK, LIGHT_ENUM)
+#define LIGHT_NODE_ENUM(type, name) light_node_word_##name,
+#define LIGHT_NODE_UNPACK(type, name) s.name = WORD_##type(record.word[light_node_word_##name]);
+LOADER(LightNode, LIGHT_NODE_FIELDS, LIGHT_NODE_UNPACK, LIGHT_NODE_ENUM)

@@ -34,6 +34,7 @@
     X(sobol)              /* samples of a pixel in a pattern; without: independent */               \
     X(thin_lens)                                                                                   \
     X(reconstruction_filter) /* any but the box */                                                 \
+    X(light_tree)         /* more than one light to choose from */                                 \
     X(next_event)         /* direct light is sampled at every vertex */                            \
     X(emission)           /* emitters that a ray can meet */                                       \
     X(scattering)         /* paths go on in directions of the BSDF's choice */                      \

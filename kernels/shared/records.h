@@ -17,5 +17,8 @@ typedef struct {
     LIGHT_FIELDS(FIELD_LANES)
 } Light;
 typedef struct {
+    LIGHT_NODE_FIELDS(FIELD_LANES)
+} LightNode;
+typedef struct {
     CAMERA_FIELDS(FIELD_LANES)
 } Camera;

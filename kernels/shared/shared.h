@@ -20,6 +20,7 @@
 
 #include "shared/bsdf_types.h"
 #include "shared/emitter_types.h"
+#include "shared/light_importance.h"
 
 #include "shared/bsdf_conductor.h"
 #include "shared/bsdf_dielectric.h"

@@ -64,7 +64,8 @@ LAYOUT(VertexRecord, 64);
 typedef struct { MATERIAL_FIELDS(FIELD_DECLARE) } MaterialRecord;
 LAYOUT(MaterialRecord, 64);
 
-// a, b, c as the emitter's own header says; pmf: probability of picking this row; density: pmf / area (1/m^2).
+// a, b, c as the emitter's own header says; pmf: probability of picking this row, its share of the power where there is a
+// light tree; density: pmf / area (1/m^2).
 #define LIGHT_FIELDS(X)                                                                            \
     X(int, kind)                                                                                   \
     X(float, ax) X(float, ay) X(float, az)                                                         \
@@ -75,12 +76,19 @@ LAYOUT(MaterialRecord, 64);
 typedef struct { LIGHT_FIELDS(FIELD_DECLARE) } LightRecord;
 LAYOUT(LightRecord, 64);
 
-// Alias table entry (Vose 1991): keep the row drawn if the second number is below threshold, else take `alias`.
-typedef struct {
-    unsigned int threshold; // in units of 2^-32; 2^32 - 1 keeps always
-    int alias;
-} LightAlias;
-LAYOUT(LightAlias, 8);
+// A node of the light tree: lights within a sphere, whose axes lie in a cone. Siblings stand side by side, the left one at an
+// even place; nodes 0 and 1 are the children of the root.
+#define LIGHT_NODE_FIELDS(X)                                                                       \
+    X(float, cx) X(float, cy) X(float, cz) X(float, radius)                                        \
+    X(float, ax) X(float, ay) X(float, az)                                                         \
+    X(float, spread)                          /* -cosine of the angle from the axis that they shine within; 2: anywhere */ \
+    X(float, intensity)                       /* largest, W/sr, of all lights together */          \
+    X(int, fixed)                             /* 1: `intensity` is the importance, for any point */ \
+    X(int, child)                             /* the left of its children; a leaf: ~light row */   \
+    X(int, parent)                            /* -1: the root */                                    \
+    X(int, unused0) X(int, unused1) X(int, unused2) X(int, unused3)
+typedef struct { LIGHT_NODE_FIELDS(FIELD_DECLARE) } LightNodeRecord;
+LAYOUT(LightNodeRecord, 64);
 
 // One of equally likely bins of a reconstruction filter along one axis: it starts at x (pixels from the centre), ends where the
 // next one starts, and its samples have this weight (negative in a negative lobe).
@@ -135,7 +143,6 @@ LAYOUT(CameraRecord, 84);
     X(int, seed)                                                                                   \
     X(int, max_depth)                         /* edges from the camera; INT_MAX without limit */    \
     X(int, rr_depth)                                                                               \
-    X(int, light_count)                                                                            \
     X(int, constant_light)                    /* row of the constant environment, -1: none */       \
     X(int, sky_covers)                        /* 1: the sky counts for alpha */                     \
     X(int, filter_bins)                       /* 0: box */                                          \
@@ -151,7 +158,7 @@ typedef struct {
     RENDER_FIELDS(FIELD_DECLARE)
     int aov_offset[AOV_LIMIT]; // first film channel of each AOV kind, -1: not asked for
 } RenderParams;
-LAYOUT(RenderParams, 84 + 23 * 4 + AOV_LIMIT * 4);
+LAYOUT(RenderParams, 84 + 22 * 4 + AOV_LIMIT * 4);
 
 // A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
 // Slot p of the pool is lane p % 16 of sample (p / 16) % sample_count of block p / (16 * sample_count).

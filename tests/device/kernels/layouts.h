@@ -7,6 +7,7 @@
 #define VERTEX_LAYOUT(type, name) LAYOUT_FIELD(VertexRecord, name)
 #define MATERIAL_LAYOUT(type, name) LAYOUT_FIELD(MaterialRecord, name)
 #define LIGHT_LAYOUT(type, name) LAYOUT_FIELD(LightRecord, name)
+#define LIGHT_NODE_LAYOUT(type, name) LAYOUT_FIELD(LightNodeRecord, name)
 #define CAMERA_LAYOUT(type, name) LAYOUT_FIELD(CameraRecord, name)
 #define RENDER_LAYOUT(type, name) LAYOUT_FIELD(RenderParams, name)
 
@@ -15,8 +16,7 @@
     PRIMITIVE_FIELDS(PRIMITIVE_LAYOUT)                                                             \
     LAYOUT_TYPE(VertexRecord)                                                                      \
     VERTEX_FIELDS(VERTEX_LAYOUT) LAYOUT_TYPE(MaterialRecord) MATERIAL_FIELDS(MATERIAL_LAYOUT)      \
-        LAYOUT_TYPE(LightRecord) LIGHT_FIELDS(LIGHT_LAYOUT) LAYOUT_TYPE(LightAlias) LAYOUT_FIELD(  \
-            LightAlias, threshold) LAYOUT_FIELD(LightAlias, alias) LAYOUT_TYPE(FilterBin)          \
+        LAYOUT_TYPE(LightRecord) LIGHT_FIELDS(LIGHT_LAYOUT) LAYOUT_TYPE(LightNodeRecord) LIGHT_NODE_FIELDS(LIGHT_NODE_LAYOUT) LAYOUT_TYPE(FilterBin)          \
             LAYOUT_FIELD(FilterBin, x) LAYOUT_FIELD(FilterBin, weight) LAYOUT_TYPE(BvhNode)        \
                 LAYOUT_FIELD(BvhNode, bounds) LAYOUT_FIELD(BvhNode, child) LAYOUT_TYPE(BvhLeaf)    \
                     LAYOUT_FIELD(BvhLeaf, rows) LAYOUT_FIELD(BvhLeaf, primitive)                   \

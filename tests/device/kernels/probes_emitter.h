@@ -31,6 +31,13 @@ FN ProbeOut probe_any_emitter_hit(ProbeIn i) {
     return put1(out3(hit.radiance), 3, hit.pdf);
 }
 
+FN ProbeOut probe_light_importance(ProbeIn i) {
+    LightImportance x = light_importance(in_LightNode(i, 0), in3(i, 16), in3(i, 19));
+    return out2(v2(x.to_surface, x.to_point));
+}
+
 #define EMITTER_PROBES(name) PROBE(name##_sample, "lpuu", 17) PROBE(name##_hit, "lpuu", 2)
 #define PROBES                                                                                     \
-    EMITTERS(EMITTER_PROBES) PROBE(any_emitter_sample, "lpuu", 17) PROBE(any_emitter_hit, "lpuu", 4)
+    EMITTERS(EMITTER_PROBES)                                                                       \
+    PROBE(any_emitter_sample, "lpuu", 17)                                                          \
+    PROBE(any_emitter_hit, "lpuu", 4) PROBE(light_importance, "psdfsbbbbbbbpd", 2)

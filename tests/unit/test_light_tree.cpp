@@ -1,0 +1,166 @@
+// The light tree: every light in one leaf, bounds that hold, and a choice that misses no light.
+#include "host/render/light_bounds.h"
+#include "tests/support/many_lights_scene.h"
+
+#include <catch2/catch.hpp>
+#include <glm/vector_relational.hpp>
+
+using namespace parhelion;
+using namespace parhelion::test;
+
+namespace {
+
+f32::LightNode lanes_of(const LightNodeRecord& r) {
+    f32::LightNode n{};
+#define COPY_FIELD(type, name) n.name = r.name;
+    LIGHT_NODE_FIELDS(COPY_FIELD)
+    return n;
+}
+
+f32::Light lanes_of(const LightRecord& r) {
+    f32::Light n{};
+    LIGHT_FIELDS(COPY_FIELD)
+    return n;
+}
+
+/// Probability of each light for a surface at p with normal n (`hint`: of any orientation), by
+/// walking the whole tree.
+std::vector<double> probabilities(const DeviceScene& scene, f32::vec3 p, f32::vec3 n, bool hint) {
+    std::vector<double> pmf(scene.lights.size());
+    struct Visit {
+        int first;
+        double share;
+    };
+    std::vector<Visit> open{{0, 1.0}};
+    while (!open.empty()) {
+        Visit v = open.back();
+        open.pop_back();
+        double importance[2];
+        for (int k = 0; k < 2; k++) {
+            auto i = f32::light_importance(
+                lanes_of(scene.light_tree.nodes[std::size_t(v.first + k)]), p, n);
+            importance[k] = hint ? i.to_point : i.to_surface;
+        }
+        double sum = importance[0] + importance[1];
+        if (!(sum > 0)) continue;
+        for (int k = 0; k < 2; k++) {
+            int child = scene.light_tree.nodes[std::size_t(v.first + k)].child;
+            double share = v.share * importance[k] / sum;
+            if (child >= 0)
+                open.push_back({child, share});
+            else
+                pmf[std::size_t(~child)] += share;
+        }
+    }
+    return pmf;
+}
+
+double sum_of(const std::vector<double>& values) {
+    double sum = 0;
+    for (double v : values)
+        sum += v;
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("Light tree: every light has one leaf, and parents and children know each other") {
+    for (int count : {2, 3, 8, 100, 5000})
+        for (LightChoice choice : {LightChoice::importance, LightChoice::power}) {
+            DeviceScene scene = make_device_scene(many_lights_scene(count, true), choice);
+            const auto& nodes = scene.light_tree.nodes;
+            REQUIRE(nodes.size() == 2 * scene.lights.size() - 2);
+            REQUIRE(scene.light_tree.leaves.size() == scene.lights.size());
+            for (std::size_t row = 0; row < scene.lights.size(); row++)
+                CHECK(nodes[std::size_t(scene.light_tree.leaves[row])].child == ~int(row));
+            for (std::size_t i = 0; i < nodes.size(); i++) {
+                CHECK((nodes[i].parent < 0) == (i < 2));
+                int child = nodes[i].child;
+                if (child < 0) continue;
+                CHECK(child % 2 == 0);
+                CHECK(nodes[std::size_t(child)].parent == int(i));
+                CHECK(nodes[std::size_t(child) + 1].parent == int(i));
+            }
+        }
+    CHECK(make_device_scene(many_lights_scene(1, false)).light_tree.nodes.empty());
+}
+
+TEST_CASE(
+    "Light tree: probabilities add up to one, but for groups that turn out dark, and no light "
+    "that shines is left out") {
+    Random random(95);
+    for (int count : {2, 8, 100, 1000}) {
+        DeviceScene scene = make_device_scene(many_lights_scene(count, true));
+        for (int repeat = 0; repeat < 100; repeat++) {
+            f32::vec3 p = random.point<F32>(9), n = random.direction<F32>();
+            std::vector<double> pmf = probabilities(scene, p, n, false),
+                                hint = probabilities(scene, p, n, true);
+            // The bounds of a group may promise light that neither of its halves has.
+            CHECK(sum_of(pmf) < 1 + 1e-5);
+            CHECK(sum_of(hint) < 1 + 1e-5);
+            for (std::size_t row = 0; row < pmf.size(); row++) {
+                f32::Light light = lanes_of(scene.lights[row]);
+                auto s = emitter_sample(light, p, random.square<F32>());
+                if (max_component(s.weight) > 0 && !(pmf[row] > 0 && hint[row] > 0))
+                    FAIL("light " << row << " of " << count << " shines and is never picked");
+            }
+        }
+    }
+}
+
+TEST_CASE("Light tree: by power every light has its share of it, everywhere") {
+    DeviceScene scene = make_device_scene(many_lights_scene(100, true), LightChoice::power);
+    std::vector<double> pmf = probabilities(scene, {1, 2, 3}, {0, 1, 0}, false);
+    for (std::size_t row = 0; row < pmf.size(); row++)
+        CHECK(pmf[row] == Approx(scene.lights[row].pmf).epsilon(1e-4));
+}
+
+TEST_CASE("Light tree: a sky keeps its share of the power whatever is near") {
+    DeviceScene scene = make_device_scene(many_lights_scene(100, true));
+    std::vector<double> pmf = probabilities(scene, {1, 0.5f, 3}, {0, 1, 0}, false);
+    double share = scene.lights[std::size_t(scene.constant_light)].pmf;
+    CHECK(pmf[std::size_t(scene.constant_light)] == Approx(share).epsilon(1e-5));
+}
+
+TEST_CASE("Light tree: merged cones hold both, merged boxes too") {
+    Random random(96);
+    auto random_bounds = [&] {
+        LightBounds b;
+        auto w = random.direction<F64>();
+        b.axis = {w.x, w.y, w.z};
+        b.cos_spread = random.between(-1, 1);
+        b.low = {random.unit(), random.unit(), random.unit()};
+        b.high = b.low + glm::dvec3(random.unit());
+        return b;
+    };
+    for (int n = 0; n < 20000; n++) {
+        LightBounds a = random_bounds(), b = random_bounds(), m = merge(a, b);
+        CHECK((glm::all(glm::lessThanEqual(m.low, a.low)) &&
+               glm::all(glm::greaterThanEqual(m.high, b.high))));
+        CHECK(glm::length(m.axis) == Approx(1).epsilon(1e-9));
+        for (const LightBounds& part : {a, b}) {
+            double reach = std::acos(glm::clamp(glm::dot(part.axis, m.axis), -1.0, 1.0)) +
+                           std::acos(part.cos_spread);
+            CHECK((m.cos_spread <= -1 || reach <= std::acos(m.cos_spread) + 1e-6));
+        }
+    }
+}
+
+TEST_CASE("Light importance: never negative, and none from behind") {
+    LightNodeRecord r{};
+    r.ay = -1; // a lamp that shines down, at height 2
+    r.cy = 2, r.radius = 0.1f;
+    r.intensity = 3; // by Lambert's law
+    f32::vec3 up = {0, 1, 0};
+    CHECK(light_importance(lanes_of(r), {0, 0, 0}, up).to_surface == Approx(0.75));
+    CHECK(light_importance(lanes_of(r), {0, 4, 0}, up).to_point == 0);
+    CHECK(light_importance(lanes_of(r), {0, 2.05f, 0}, up).to_point > 0); // within its sphere
+    Random random(97);
+    for (int n = 0; n < 100000; n++) {
+        auto axis = random.direction<F32>();
+        r.ax = axis.x, r.ay = axis.y, r.az = axis.z;
+        r.spread = float(random.between(-1, 2));
+        auto i = light_importance(lanes_of(r), random.point<F32>(4), random.direction<F32>());
+        if (!(i.to_surface >= 0 && i.to_point >= i.to_surface * 0.999999f)) FAIL("at " << n);
+    }
+}
