@@ -142,7 +142,8 @@ private:
         const Buffer<BvhNode>& bvh_nodes = nodes_;
         const Buffer<BvhLeaf>& bvh_leaves = leaves_;
         // Not read by these kernels.
-        Buffer<int> primitives, vertices, materials, lights, light_nodes, light_leaves, filter_table, film;
+        Buffer<int> primitives, vertices, materials, lights, light_nodes, light_leaves,
+            filter_table, film;
         RenderParams params{};
         params.state_stride = params.path_capacity = static_cast<int>(s.stride());
         params.segment_size = params.segment_stride = segment;
