@@ -30,7 +30,7 @@ kernel void accumulate(KERNEL_PARAMETERS) {
     for (int part = 0; part < BLOCK_PIXELS; part += LANES) {
         long pixel = (long)(wave.first_block + block) * BLOCK_PIXELS + part;
         global float* sums = film + pixel;
-        global float* errors = film + (long)film_channels * params.film_pixels + pixel;
+        global float* errors = film + (long)film_channels * params.film_stride + pixel;
         for (int sample = 0; sample < wave.sample_count; sample++) {
             long slot = ((long)block * wave.sample_count + sample) * BLOCK_PIXELS + part;
             Real weight = LOAD_REAL(RESULT(result_weight) + slot);
@@ -41,14 +41,14 @@ kernel void accumulate(KERNEL_PARAMETERS) {
             dropped += (uint)popcount(maskBits(!good));
             for (int c = 0; c < channels; c++) {
                 Real v = c == result_weight ? weight : LOAD_REAL(RESULT(c) + slot) * weight;
-                film_add(sums + (long)c * params.film_pixels, errors + (long)c * params.film_pixels,
+                film_add(sums + (long)c * params.film_stride, errors + (long)c * params.film_stride,
                          sel(good, v, R(0.)));
             }
             if (HAS(moments)) {
                 for (int c = 0; c < 3; c++) {
                     Real v = square(LOAD_REAL(RESULT(c) + slot)) * weight;
-                    film_add(sums + (long)(channels + c) * params.film_pixels,
-                             errors + (long)(channels + c) * params.film_pixels,
+                    film_add(sums + (long)(channels + c) * params.film_stride,
+                             errors + (long)(channels + c) * params.film_stride,
                              sel(good, v, R(0.)));
                 }
             }

@@ -90,16 +90,16 @@ FN vec3 surface_emission(PathVertex v, Primitive p, SurfaceInteraction s,
 FN void write_aovs(global float* results, RenderParams params, PathVertex v, Primitive p,
                    SurfaceInteraction s, Material m) {
     uint bits = maskBits(v.hit);
-    long capacity = params.path_capacity;
+    long stride = params.result_stride;
     vec3 none = splat3(R(0.));
 #define AOV3(kind, value)                                                                          \
     if (params.aov_offset[aov_##kind] >= 0)                                                        \
-        add_result3(results, capacity, result_field_count + params.aov_offset[aov_##kind], v.slot, \
+        add_result3(results, stride, result_field_count + params.aov_offset[aov_##kind], v.slot,   \
                     sel3(v.hit, value, none), bits);
 #define AOV1(kind, channel, value)                                                                 \
     if (params.aov_offset[aov_##kind] >= 0)                                                        \
         scatter_add(results +                                                                      \
-                        (result_field_count + params.aov_offset[aov_##kind] + channel) * capacity, \
+                        (result_field_count + params.aov_offset[aov_##kind] + channel) * stride,   \
                     v.slot, value, bits);
     AOV3(albedo, material_reflectance(m))
     AOV3(sh_normal, s.ns)
@@ -120,7 +120,7 @@ kernel void shade(KERNEL_PARAMETERS) {
     int base = segment * params.segment_stride;
     int end = base + counts[2 * segment];
     int next_path = base, next_shadow = base;
-    long capacity = params.path_capacity;
+    long stride = params.result_stride;
     for (int at = base; at < end; at += LANES) {
         PathVertex v = load_vertex_state(path_state, params, at, end - at);
         Primitive primitive = load_Primitive(primitives, v.primitive);
@@ -144,8 +144,7 @@ kernel void shade(KERNEL_PARAMETERS) {
         if (HAS(emission) || depth == 0) {
             uint seen_bits = maskBits(v.active & (max_component(seen) != R(0.)));
             if (seen_bits)
-                add_result3(results, capacity, result_r, v.slot, mul3(v.throughput, seen),
-                            seen_bits);
+                add_result3(results, stride, result_r, v.slot, mul3(v.throughput, seen), seen_bits);
         }
         if (depth == 0) scatter_add(RESULT(result_alpha), v.slot, R(1.), maskBits(covered));
 

@@ -31,7 +31,7 @@ kernel void shadow(KERNEL_PARAMETERS) {
                            ? SHADOW_LOAD_INT(blocked) != 0
                            : shadow_packet(bvh_nodes, bvh_leaves, shadow_state, params, at, active);
         vec3 light = v3(SHADOW_LOAD_REAL(r), SHADOW_LOAD_REAL(g), SHADOW_LOAD_REAL(b));
-        add_result3(results, params.path_capacity, result_r, SHADOW_LOAD_INT(slot), light,
+        add_result3(results, params.result_stride, result_r, SHADOW_LOAD_INT(slot), light,
                     maskBits(active & !blocked));
     }
     statistics[statistic_count * segment + statistic_shadow_rays] += (ulong)(end - base);

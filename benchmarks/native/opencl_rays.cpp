@@ -39,8 +39,7 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     work_.path_state = {device.context, "path_state", path_field_count * sizes_.state_stride()};
     work_.shadow_state = {device.context, "shadow_state",
                           shadow_field_count * sizes_.state_stride()};
-    work_.results = {device.context, "results",
-                     static_cast<std::size_t>(result_field_count * sizes_.path_capacity)};
+    work_.results = {device.context, "results", result_field_count * sizes_.result_stride()};
     work_.counts = {device.context, "counts", 2 * segments};
     work_.statistics = {device.context, "statistics", statistic_count * segments};
     work_.film = {device.context, "film", 1};
@@ -49,7 +48,7 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     scene_.bvh_leaves = {device.context, device.queue, "leaves", bvh.leaves.data(),
                          bvh.leaves.size()};
     RenderParams params{};
-    params.path_capacity = sizes_.path_capacity;
+    params.result_stride = static_cast<int>(sizes_.result_stride());
     params.state_stride = static_cast<int>(sizes_.state_stride());
     params.segment_size = sizes_.segment_size;
     params.segment_stride = sizes_.segment_stride;
@@ -150,7 +149,7 @@ std::vector<Hit> OpenClTracer::hits() {
     if (any_hit_) {
         std::vector<float> results(work_.results.count());
         work_.results.read(device_.queue, results.data());
-        const float* r = results.data() + static_cast<std::size_t>(result_r * sizes_.path_capacity);
+        const float* r = results.data() + result_r * sizes_.result_stride();
         for (std::size_t i = 0; i < count_; i++)
             found[i] = {0, 0, 0, r[i] == 0 ? 0 : -1};
         return found;

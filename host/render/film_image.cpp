@@ -50,8 +50,8 @@ public:
 private:
     double sum(int channel, int x, int y) const {
         std::size_t block = static_cast<std::size_t>(y / 4) * sizes_.blocks_x + x / 4;
-        std::size_t at = channel * sizes_.film_pixels() + block * BLOCK_PIXELS + y % 4 * 4 + x % 4;
-        return double{film_[at]} + film_[at + sizes_.film_channels * sizes_.film_pixels()];
+        std::size_t at = channel * sizes_.film_stride() + block * BLOCK_PIXELS + y % 4 * 4 + x % 4;
+        return double{film_[at]} + film_[at + sizes_.film_channels * sizes_.film_stride()];
     }
 
     const std::vector<float>& film_;

@@ -46,11 +46,11 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.sky_covers = scene.integrator.kind == IntegratorKind::path && !scene.integrator.hide_emitters;
     p.filter_bins =
         device.filter_table.empty() ? 0 : static_cast<int>(device.filter_table.size()) - 1;
-    p.path_capacity = sizes.path_capacity;
+    p.result_stride = static_cast<int>(sizes.result_stride());
     p.state_stride = static_cast<int>(sizes.state_stride());
     p.segment_size = sizes.segment_size;
     p.segment_stride = sizes.segment_stride;
-    p.film_pixels = static_cast<int>(sizes.film_pixels());
+    p.film_stride = static_cast<int>(sizes.film_stride());
     p.aov_channels = aovs.channels;
     p.camera_root = device.camera_root;
     p.root = device.root;

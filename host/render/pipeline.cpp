@@ -78,10 +78,10 @@ void Pipeline::allocate(const WorkSizes& s) {
     std::size_t counted = std::max(s.segments, s.blocks_per_wave);
     work_.path_state = {device_.context, "path_state", path_field_count * s.state_stride()};
     work_.shadow_state = {device_.context, "shadow_state", shadow_field_count * s.state_stride()};
-    work_.results = {device_.context, "results", result_channels * s.path_capacity};
+    work_.results = {device_.context, "results", result_channels * s.result_stride()};
     work_.counts = {device_.context, "counts", 2 * static_cast<std::size_t>(s.segments)};
     work_.statistics = {device_.context, "statistics", statistic_count * counted};
-    work_.film = {device_.context, "film", 2 * s.film_channels * s.film_pixels()};
+    work_.film = {device_.context, "film", 2 * s.film_channels * s.film_stride()};
     // Leftovers behind the last path are read (and ignored): they must be numbers the first time
     // too.
     work_.path_state.fill_zero(device_.queue);

@@ -27,6 +27,10 @@ struct WorkBuffers {
     std::size_t bytes() const;
 };
 
+/// Floats from one field or channel to the next: arrays a power of two apart would share the same
+/// few places of a cache.
+constexpr std::size_t odd_lines(std::size_t floats) { return 16 * ((floats + 15) / 16 | 1); }
+
 /// Sizes that follow from film, samples and split.
 struct WorkSizes {
     int samples_per_wave = 1, blocks_per_wave = 1, path_capacity = 16;
@@ -34,8 +38,11 @@ struct WorkSizes {
     int blocks_x = 1, blocks_y = 1;
     int film_channels = 5;
 
-    std::size_t film_pixels() const { return std::size_t{16} * blocks_x * blocks_y; }
-    std::size_t state_stride() const { return static_cast<std::size_t>(segments) * segment_stride; }
+    std::size_t result_stride() const { return odd_lines(path_capacity); }
+    std::size_t film_stride() const { return odd_lines(std::size_t{16} * blocks_x * blocks_y); }
+    std::size_t state_stride() const {
+        return odd_lines(static_cast<std::size_t>(segments) * segment_stride);
+    }
 };
 
 WorkSizes work_sizes(int crop_width, int crop_height, int samples, int lanes, int film_channels,

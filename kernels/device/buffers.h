@@ -20,10 +20,10 @@
 // element type, name: what a render works on
 //   path_state    PATH_FIELDS x state_stride: live paths, packed at the front of each segment
 //   shadow_state  SHADOW_FIELDS x state_stride: shadow rays, likewise
-//   results       RESULT_FIELDS + AOV channels, x path_capacity: what each path slot has gathered
+//   results       RESULT_FIELDS + AOV channels, x result_stride: what each path slot has gathered
 //   counts        2 a segment: live paths, shadow rays
 //   statistics    STATISTICS a segment
-//   film          2 floats (sum, rounding error of the sum) x channels x film_pixels
+//   film          2 floats (sum, rounding error of the sum) x channels x film_stride
 #define WORK_BUFFERS(X)                                                                            \
     X(float, path_state) X(float, shadow_state) X(float, results)                                  \
     X(int, counts) X(ulong, statistics) X(float, film)

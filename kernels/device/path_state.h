@@ -23,14 +23,13 @@
 #define SHADOW_LOAD_INT(name)                                                                      \
     LOAD_INT((global const int*)shadow_state + (long)shadow_##name * params.state_stride + at)
 
-#define RESULT(channel) (results + (long)(channel)*params.path_capacity)
+#define RESULT(channel) (results + (long)(channel)*params.result_stride)
 
 /// Adds v to three neighbouring result channels of the lanes' slots.
-FN void add_result3(global float* results, long capacity, int channel, Int slot, vec3 v,
-                    uint bits) {
-    scatter_add(results + channel * capacity, slot, v.x, bits);
-    scatter_add(results + (channel + 1) * capacity, slot, v.y, bits);
-    scatter_add(results + (channel + 2) * capacity, slot, v.z, bits);
+FN void add_result3(global float* results, long stride, int channel, Int slot, vec3 v, uint bits) {
+    scatter_add(results + channel * stride, slot, v.x, bits);
+    scatter_add(results + (channel + 1) * stride, slot, v.y, bits);
+    scatter_add(results + (channel + 2) * stride, slot, v.z, bits);
 }
 
 /// Lanes of a packet that hold an entry: `left` entries from its first lane on.

@@ -146,11 +146,11 @@ LAYOUT(CameraRecord, 84);
     X(int, constant_light)                    /* row of the constant environment, -1: none */       \
     X(int, sky_covers)                        /* 1: the sky counts for alpha */                     \
     X(int, filter_bins)                       /* 0: box */                                          \
-    X(int, path_capacity)                     /* path slots in the pool */                          \
     X(int, state_stride)                      /* floats between two fields of the path state */     \
+    X(int, result_stride)                     /* floats between two channels of the results */     \
+    X(int, film_stride)                       /* floats between two channels of the film */        \
     X(int, segment_size)                      /* path slots owned by one work-item */               \
     X(int, segment_stride)                    /* their entries in the path state, with padding */   \
-    X(int, film_pixels)                       /* pixels in the film, whole blocks */                \
     X(int, aov_channels)                                                                           \
     X(int, camera_root) X(int, root)          /* BVH roots for camera rays and for all others */
 typedef struct {

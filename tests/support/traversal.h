@@ -145,7 +145,7 @@ private:
         Buffer<int> primitives, vertices, materials, lights, light_nodes, light_leaves,
             filter_table, film;
         RenderParams params{};
-        params.state_stride = params.path_capacity = static_cast<int>(s.stride());
+        params.state_stride = params.result_stride = static_cast<int>(s.stride());
         params.segment_size = params.segment_stride = segment;
         params.root = params.camera_root = root_;
         cl_uint argument = 0;
