@@ -169,7 +169,7 @@ def _checks_of_speed(scene):
 def _checks_of_sampling(scene):
     """One sample a pixel is as good as independent sampling gets: 64 independent ones would be 8 times better."""
     points = {p["spp"]: p for p in scene["curves"][0]["points"]}
-    if not {1, 64} <= points.keys() or min(points[1]["runs"], points[64]["runs"]) < 2:
+    if not {1, 64} <= points.keys() or min(points[1]["runs"], points[64]["runs"]) < 4:
         return
     one, many = points[1], points[64]
     ratio = 8 * many["rmse"] / one["rmse"]
