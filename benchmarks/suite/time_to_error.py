@@ -122,12 +122,13 @@ def _curve(name, runs):
 
 
 def _reference_mean_square(ours, reference):
-    """Our own error falls at least as fast as with independent samples, so this bounds the reference's."""
-    if not reference["spp"]:
+    """The reference's own error: our last point's, continued as our points fall, at least as independent samples do."""
+    points = ours["points"]
+    if not reference["spp"] or len(points) < 2:
         return 0.0
-    last = ours["points"][-1]
-    share = last["spp"] / reference["spp"]
-    return last["measured_rmse"] ** 2 * share / (1 + share)
+    exponent, _ = fits.power_fit([p["spp"] for p in points], [p["measured_rmse"] for p in points])
+    share = (points[-1]["spp"] / reference["spp"]) ** max(1.0, -2 * exponent)
+    return points[-1]["measured_rmse"] ** 2 * share / (1 + share)
 
 
 def _finish(curve, reference_mean_square):
