@@ -108,8 +108,17 @@ FN int walk_node(RayWalk* w, WalkStack* stack, global const BvhNode* node, int a
 
 #define LEAF_ROW(row) LOAD_REAL(leaf->rows[row] + group * LANES)
 
+/// For any hit only whether there is one.
+FN Intersection triangle_hit(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max, int any_hit) {
+    Intersection i;
+    if (!any_hit) return intersect_triangle(a, b, c, ray, t_max);
+    i.hit = triangle_blocks(a, b, c, ray, t_max);
+    i.t = i.b1 = i.b2 = R(0.);
+    return i;
+}
+
 FN Intersection leaf_triangles(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
-                               float t_max) {
+                               float t_max, int any_hit) {
     int x = ray->axis[0], y = ray->axis[1], z = ray->axis[2];
     Real ox = (Real)ray->origin[x], oy = (Real)ray->origin[y], oz = (Real)ray->origin[z];
     RayShear shear;
@@ -119,7 +128,7 @@ FN Intersection leaf_triangles(global const BvhLeaf* leaf, int group, const Trav
     vec3 a = v3(LEAF_ROW(x) - ox, LEAF_ROW(y) - oy, LEAF_ROW(z) - oz);
     vec3 b = v3(LEAF_ROW(3 + x) - ox, LEAF_ROW(3 + y) - oy, LEAF_ROW(3 + z) - oz);
     vec3 c = v3(LEAF_ROW(6 + x) - ox, LEAF_ROW(6 + y) - oy, LEAF_ROW(6 + z) - oz);
-    return intersect_triangle(a, b, c, shear, (Real)t_max);
+    return triangle_hit(a, b, c, shear, (Real)t_max, any_hit);
 }
 
 FN vec3 splat_ray(const float* v) { return v3((Real)v[0], (Real)v[1], (Real)v[2]); }
@@ -141,10 +150,10 @@ FN Intersection leaf_disks(global const BvhLeaf* leaf, int group, const Traversa
 }
 
 FN Intersection leaf_group(global const BvhLeaf* leaf, int kind, int group, const TraversalRay* ray,
-                           float t_max) {
+                           float t_max, int any_hit) {
     if (HAS(shape_sphere) && kind == geometry_sphere) return leaf_spheres(leaf, group, ray, t_max);
     if (HAS(shape_disk) && kind == geometry_disk) return leaf_disks(leaf, group, ray, t_max);
-    return leaf_triangles(leaf, group, ray, t_max);
+    return leaf_triangles(leaf, group, ray, t_max, any_hit);
 }
 
 /// Which primitives of a leaf the ray hits before its closest hit, and where.
@@ -153,13 +162,15 @@ typedef struct {
     RealLanes t[LANE_GROUPS], b1[LANE_GROUPS], b2[LANE_GROUPS];
 } LeafHits;
 
-FN void leaf_hits(const RayWalk* w, global const BvhLeaf* leaf, int kind, LeafHits* hits) {
+FN void leaf_hits(const RayWalk* w, global const BvhLeaf* leaf, int kind, int any_hit,
+                  LeafHits* hits) {
     hits->bits = 0;
     for (int group = 0; group < LANE_GROUPS; group++) {
-        Intersection i = leaf_group(leaf, kind, group, &w->ray, w->t);
+        Intersection i = leaf_group(leaf, kind, group, &w->ray, w->t, any_hit);
         Int number = LOAD_INT(leaf->primitive + group * LANES);
         Mask counts = i.hit & (number >= 0) & (number != (Int)w->excluded);
         hits->bits |= maskBits(counts) << (group * LANES);
+        if (any_hit) continue;
         hits->t[group].lanes = i.t;
         hits->b1[group].lanes = i.b1;
         hits->b2[group].lanes = i.b2;
@@ -193,7 +204,7 @@ FN void walk_alone(RayWalk* w, WalkStack* stack, global const BvhNode* nodes,
             next = walk_node(w, stack, nodes + code, any_hit);
         } else {
             global const BvhLeaf* leaf = leaves + (~code >> 2);
-            leaf_hits(w, leaf, ~code & 3, &hits);
+            leaf_hits(w, leaf, ~code & 3, any_hit, &hits);
             if (walk_take(w, leaf, &hits, any_hit)) return;
         }
         code = next == WALK_ENDS ? walk_pop(w, stack, any_hit) : next;

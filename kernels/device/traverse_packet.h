@@ -110,7 +110,7 @@ FN Mask packet_overlap(global const BvhNode* node, int k, PacketRay r, const Pac
        (Real)leaf->rows[first + z][k])
 
 FN Intersection packet_primitive(global const BvhLeaf* leaf, int kind, int k, PacketRay r,
-                                 const PacketBounds* bounds, Real t) {
+                                 const PacketBounds* bounds, Real t, int any_hit) {
     if (HAS(shape_sphere) && kind == geometry_sphere)
         return intersect_sphere(sub3(r.origin, CORNER(0, 0, 1, 2)), r.direction,
                                 (Real)leaf->rows[3][k], t);
@@ -129,7 +129,7 @@ FN Intersection packet_primitive(global const BvhLeaf* leaf, int kind, int k, Pa
         b = rename_axes(r, sub3(CORNER(3, 0, 1, 2), r.origin));
         c = rename_axes(r, sub3(CORNER(6, 0, 1, 2), r.origin));
     }
-    return intersect_triangle(a, b, c, r.shear, t);
+    return triangle_hit(a, b, c, r.shear, t, any_hit);
 }
 
 /// Takes the hits of one leaf into `hit`; returns the rays that have one.
@@ -139,7 +139,7 @@ FN Mask packet_leaf(global const BvhLeaf* leaf, int kind, PacketRay r, const Pac
     for (int k = 0; k < BVH_WIDTH; k++) {
         int number = leaf->primitive[k];
         if (number < 0) break;
-        Intersection i = packet_primitive(leaf, kind, k, r, bounds, hit->t);
+        Intersection i = packet_primitive(leaf, kind, k, r, bounds, hit->t, any_hit);
         Mask hits = i.hit & live & (excluded != number);
         if (any_hit) {
             found = found | hits;

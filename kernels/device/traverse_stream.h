@@ -132,7 +132,7 @@ FN void traverse_stream(global const BvhNode* nodes, global const BvhLeaf* leave
         count = s.leaf_count;
         for (int k = 0; k < count; k++) {
             int i = s.at_leaf[k], code = ~s.code[i];
-            leaf_hits(&s.walk[i], leaves + (code >> 2), code & 3, &hits[k]);
+            leaf_hits(&s.walk[i], leaves + (code >> 2), code & 3, any_hit, &hits[k]);
         }
         s.leaf_count = 0;
         for (int k = 0; k < count; k++) {

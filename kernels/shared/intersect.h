@@ -15,28 +15,51 @@ typedef struct {
     Real b1, b2;
 } Intersection;
 
-/// Watertight triangle test: corners a, b, c relative to the ray's origin, axes renamed. A ray at a
-/// shared edge or vertex hits at least one of the neighbours, for any mesh: the signs of the edge
-/// functions are exact. t in ]0, t_max].
-FN Intersection intersect_triangle(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max) {
+/// A triangle as a ray sees it: edge functions, whose signs say on which side of each edge the ray
+/// passes.
+typedef struct {
+    Mask inside;
+    Real u, v, w, determinant;
+} TriangleEdges;
+
+/// Corners a, b, c relative to the ray's origin, axes renamed. Watertight: a ray at a shared edge
+/// or vertex is inside at least one of the neighbours, for any mesh, since the signs are exact.
+FN TriangleEdges triangle_edges(vec3 a, vec3 b, vec3 c, RayShear ray) {
     Real ax = fmaR(-ray.shear_x, a.z, a.x), ay = fmaR(-ray.shear_y, a.z, a.y);
     Real bx = fmaR(-ray.shear_x, b.z, b.x), by = fmaR(-ray.shear_y, b.z, b.y);
     Real cx = fmaR(-ray.shear_x, c.z, c.x), cy = fmaR(-ray.shear_y, c.z, c.y);
-    Real u = difference_of_products(cx, by, cy, bx);
-    Real v = difference_of_products(ax, cy, ay, cx);
-    Real w = difference_of_products(bx, ay, by, ax);
-    Real determinant = u + v + w;
-    Mask inside =
-        ((u >= R(0.)) & (v >= R(0.)) & (w >= R(0.))) | ((u <= R(0.)) & (v <= R(0.)) & (w <= R(0.)));
+    TriangleEdges e;
+    e.u = difference_of_products(cx, by, cy, bx);
+    e.v = difference_of_products(ax, cy, ay, cx);
+    e.w = difference_of_products(bx, ay, by, ax);
+    e.determinant = e.u + e.v + e.w;
+    Mask left = (e.u >= R(0.)) & (e.v >= R(0.)) & (e.w >= R(0.));
+    Mask right = (e.u <= R(0.)) & (e.v <= R(0.)) & (e.w <= R(0.));
+    e.inside = (left | right) & (e.determinant != R(0.));
+    return e;
+}
+
+/// The watertight triangle test: corners as for triangle_edges; t in ]0, t_max].
+FN Intersection intersect_triangle(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max) {
+    TriangleEdges e = triangle_edges(a, b, c, ray);
     // Barycentrics first: the product of three lengths would need more exponents than there are.
-    Real scale = R(1.) / determinant;
-    Real b0 = u * scale;
+    Real scale = R(1.) / e.determinant;
+    Real b0 = e.u * scale;
     Intersection i;
-    i.b1 = v * scale;
-    i.b2 = w * scale;
+    i.b1 = e.v * scale;
+    i.b2 = e.w * scale;
     i.t = ray.shear_z * (b0 * a.z + i.b1 * b.z + i.b2 * c.z);
-    i.hit = inside & (determinant != R(0.)) & (i.t > R(0.)) & (i.t <= t_max);
+    i.hit = e.inside & (i.t > R(0.)) & (i.t <= t_max);
     return i;
+}
+
+/// Whether intersect_triangle hits, but for the rounding of t at both ends: without a division.
+FN Mask triangle_blocks(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max) {
+    TriangleEdges e = triangle_edges(a, b, c, ray);
+    // In units of the ray's own length, so that only two lengths are multiplied.
+    Real az = ray.shear_z * a.z, bz = ray.shear_z * b.z, cz = ray.shear_z * c.z;
+    Real t = copysignR(R(1.), e.determinant) * (e.u * az + e.v * bz + e.w * cz);
+    return e.inside & (t > R(0.)) & (t <= t_max * absR(e.determinant));
 }
 
 /// Ray origin relative to the centre; direction of any length. The root is taken from the foot of

@@ -155,6 +155,30 @@ TEST_CASE("Triangles: without texture coordinates the shading frame follows the 
     }
 }
 
+TEST_CASE("Triangles: blocking a ray is hitting it, but for the rounding of its ends",
+          "[intersect]") {
+    Random random(65);
+    int hits = 0;
+    for (int n = 0; n < 200000; n++) {
+        double size = std::exp2(random.between(-40, 40));
+        f32::vec3 corner[3];
+        for (f32::vec3& c : corner)
+            c = random.point<F32>(size);
+        Ray r = make_ray(f32::v3(0, 0, 0), random.point<F32>(n % 2 ? size : 1));
+        auto renamed = [&](f32::vec3 v) {
+            return f32::v3(axis_of(v, r.axis[0]), axis_of(v, r.axis[1]), axis_of(v, r.axis[2]));
+        };
+        f32::vec3 a = renamed(corner[0]), b = renamed(corner[1]), c = renamed(corner[2]);
+        f32::Intersection i = f32::intersect_triangle(a, b, c, r.shear, INFINITY);
+        CHECK(f32::triangle_blocks(a, b, c, r.shear, INFINITY) == i.hit);
+        if (!i.hit) continue;
+        hits++;
+        CHECK(f32::triangle_blocks(a, b, c, r.shear, i.t * 1.00001f));
+        CHECK_FALSE(f32::triangle_blocks(a, b, c, r.shear, i.t * .99999f));
+    }
+    CHECK(hits > 5000);
+}
+
 TEST_CASE("Triangles: without area they are never hit", "[intersect]") {
     Random random(63);
     for (int n = 0; n < 100000; n++) {

@@ -22,6 +22,13 @@ FN ProbeOut probe_intersect_triangle_through_corners(ProbeIn i) {
     shear.shear_z = R(1.) / aim.z;
     return out_intersection(intersect_triangle(a, b, c, shear, LANE_INFINITY));
 }
+FN ProbeOut probe_triangle_blocks(ProbeIn i) {
+    RayShear shear;
+    shear.shear_x = i.w[9] * R(.01);
+    shear.shear_y = i.w[10] * R(.01);
+    shear.shear_z = i.w[11];
+    return out1(mask_word(triangle_blocks(in3(i, 0), in3(i, 3), in3(i, 6), shear, absR(i.w[12]))));
+}
 FN ProbeOut probe_intersect_sphere(ProbeIn i) {
     return out_intersection(intersect_sphere(in3(i, 0), in3(i, 3), i.w[6], LANE_INFINITY));
 }
@@ -73,7 +80,7 @@ FN ProbeOut probe_camera_ray(ProbeIn i) {
 // The lists below are tables.
 // clang-format off
 #define PROBES                                                                                     \
-    PROBE(intersect_triangle, "pppcccr", 4)                                                        \
+    PROBE(intersect_triangle, "pppcccr", 4) PROBE(triangle_blocks, "pppcccr", 1)                   \
     PROBE(intersect_triangle_through_corners, "pppu", 4)                                           \
     PROBE(intersect_sphere, "pps", 4)                                                              \
     PROBE(intersect_disk, "pppp", 4)                                                               \
