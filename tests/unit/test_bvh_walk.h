@@ -5,7 +5,9 @@
 #include "host/bvh/bvh.h"
 #include "host/shared_maths.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>

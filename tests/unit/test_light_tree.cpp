@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <span>
+
 using namespace parhelion;
 using namespace parhelion::test;
 
@@ -35,21 +37,21 @@ std::vector<double> probabilities(const DeviceScene& scene, f32::vec3 p, f32::ve
     while (!open.empty()) {
         Visit v = open.back();
         open.pop_back();
+        auto pair = std::span(scene.light_tree.nodes).subspan(std::size_t(v.first), 2);
         double importance[2];
-        for (int k = 0; k < 2; k++) {
-            auto i = f32::light_importance(
-                lanes_of(scene.light_tree.nodes[std::size_t(v.first + k)]), p, n);
+        for (std::size_t k = 0; k < 2; k++) {
+            auto i = f32::light_importance(lanes_of(pair[k]), p, n);
             importance[k] = hint ? i.to_point : i.to_surface;
         }
         double sum = importance[0] + importance[1];
         if (!(sum > 0)) continue;
-        for (int k = 0; k < 2; k++) {
-            int child = scene.light_tree.nodes[std::size_t(v.first + k)].child;
+        for (std::size_t k = 0; k < 2; k++) {
+            int child = pair[k].child, row = ~child;
             double share = v.share * importance[k] / sum;
             if (child >= 0)
                 open.push_back({child, share});
             else
-                pmf[std::size_t(~child)] += share;
+                pmf[std::size_t(row)] += share;
         }
     }
     return pmf;
