@@ -173,8 +173,11 @@ TEST_CASE("Triangles: blocking a ray is hitting it, but for the rounding of its 
         CHECK(f32::triangle_blocks(a, b, c, r.shear, INFINITY) == i.hit);
         if (!i.hit) continue;
         hits++;
-        CHECK(f32::triangle_blocks(a, b, c, r.shear, i.t * 1.00001f));
-        CHECK_FALSE(f32::triangle_blocks(a, b, c, r.shear, i.t * .99999f));
+        // Rounding goes with the size of the triangle, not with the distance to it.
+        float size_z = std::max({std::fabs(a.z), std::fabs(b.z), std::fabs(c.z)});
+        float rounding = 32 * std::exp2(-24.f) * size_z * std::fabs(r.shear.shear_z);
+        CHECK(f32::triangle_blocks(a, b, c, r.shear, i.t + rounding));
+        CHECK_FALSE(f32::triangle_blocks(a, b, c, r.shear, i.t - rounding));
     }
     CHECK(hits > 5000);
 }
