@@ -108,13 +108,20 @@ FN int walk_node(RayWalk* w, WalkStack* stack, global const BvhNode* node, int a
 
 #define LEAF_ROW(row) LOAD_REAL(leaf->rows[row] + group * LANES)
 
-/// For any hit only whether there is one.
-FN Intersection triangle_hit(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max, int any_hit) {
+/// For any hit only whether there is one. `rarely`: most often no lane is inside the triangle, so
+/// that a branch pays.
+FN Intersection triangle_hit(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max, int any_hit,
+                             int rarely) {
     Intersection i;
-    if (!any_hit) return intersect_triangle(a, b, c, ray, t_max);
-    i.hit = triangle_blocks(a, b, c, ray, t_max);
     i.t = i.b1 = i.b2 = R(0.);
-    return i;
+    if (any_hit) {
+        i.hit = triangle_blocks(a, b, c, ray, t_max);
+        return i;
+    }
+    TriangleEdges e = triangle_edges(a, b, c, ray);
+    i.hit = e.inside;
+    if (rarely && !someLane(e.inside)) return i;
+    return triangle_distance(e, a, b, c, ray, t_max);
 }
 
 FN Intersection leaf_triangles(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
@@ -128,7 +135,7 @@ FN Intersection leaf_triangles(global const BvhLeaf* leaf, int group, const Trav
     vec3 a = v3(LEAF_ROW(x) - ox, LEAF_ROW(y) - oy, LEAF_ROW(z) - oz);
     vec3 b = v3(LEAF_ROW(3 + x) - ox, LEAF_ROW(3 + y) - oy, LEAF_ROW(3 + z) - oz);
     vec3 c = v3(LEAF_ROW(6 + x) - ox, LEAF_ROW(6 + y) - oy, LEAF_ROW(6 + z) - oz);
-    return triangle_hit(a, b, c, shear, (Real)t_max, any_hit);
+    return triangle_hit(a, b, c, shear, (Real)t_max, any_hit, 0);
 }
 
 FN vec3 splat_ray(const float* v) { return v3((Real)v[0], (Real)v[1], (Real)v[2]); }

@@ -129,10 +129,11 @@ FN Intersection packet_primitive(global const BvhLeaf* leaf, int kind, int k, Pa
         b = rename_axes(r, sub3(CORNER(3, 0, 1, 2), r.origin));
         c = rename_axes(r, sub3(CORNER(6, 0, 1, 2), r.origin));
     }
-    return triangle_hit(a, b, c, r.shear, t, any_hit);
+    return triangle_hit(a, b, c, r.shear, t, any_hit, bounds->coherent);
 }
 
-/// Takes the hits of one leaf into `hit`; returns the rays that have one.
+/// Takes the hits of one leaf into `hit`; returns the rays that have one. Rays that go the same way
+/// mostly miss together; of others there is nearly always one that hits, so that no branch pays.
 FN Mask packet_leaf(global const BvhLeaf* leaf, int kind, PacketRay r, const PacketBounds* bounds,
                     Int excluded, Mask live, int any_hit, PacketHit* hit) {
     Mask found = lanesOf(0);
@@ -140,11 +141,11 @@ FN Mask packet_leaf(global const BvhLeaf* leaf, int kind, PacketRay r, const Pac
         int number = leaf->primitive[k];
         if (number < 0) break;
         Intersection i = packet_primitive(leaf, kind, k, r, bounds, hit->t, any_hit);
+        if (bounds->coherent && !someLane(i.hit)) continue;
         Mask hits = i.hit & live & (excluded != number);
         if (any_hit) {
             found = found | hits;
         } else {
-            // No branch: among as many rays there is nearly always one that hits.
             Mask closer = hits & ((i.t < hit->t) | ((Int)number < hit->primitive));
             hit->t = sel(closer, i.t, hit->t);
             hit->b1 = sel(closer, i.b1, hit->b1);

@@ -39,9 +39,9 @@ FN TriangleEdges triangle_edges(vec3 a, vec3 b, vec3 c, RayShear ray) {
     return e;
 }
 
-/// The watertight triangle test: corners as for triangle_edges; t in ]0, t_max].
-FN Intersection intersect_triangle(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max) {
-    TriangleEdges e = triangle_edges(a, b, c, ray);
+/// Where the ray meets the plane of a triangle that it is inside of; t in ]0, t_max].
+FN Intersection triangle_distance(TriangleEdges e, vec3 a, vec3 b, vec3 c, RayShear ray,
+                                  Real t_max) {
     // Barycentrics first: the product of three lengths would need more exponents than there are.
     Real scale = R(1.) / e.determinant;
     Real b0 = e.u * scale;
@@ -51,6 +51,11 @@ FN Intersection intersect_triangle(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_
     i.t = ray.shear_z * (b0 * a.z + i.b1 * b.z + i.b2 * c.z);
     i.hit = e.inside & (i.t > R(0.)) & (i.t <= t_max);
     return i;
+}
+
+/// The watertight triangle test: corners as for triangle_edges; t in ]0, t_max].
+FN Intersection intersect_triangle(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max) {
+    return triangle_distance(triangle_edges(a, b, c, ray), a, b, c, ray, t_max);
 }
 
 /// Whether intersect_triangle hits, but for the rounding of t at both ends: without a division.
