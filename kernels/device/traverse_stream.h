@@ -10,9 +10,7 @@
 #if LANES == 1
 #define STREAM_WALKS 1
 #else
-#ifndef STREAM_WALKS
 #define STREAM_WALKS 16
-#endif
 #endif
 
 /// A run of rays in the path state (closest hit) or the shadow state (any hit).
