@@ -20,6 +20,17 @@ std::size_t entry(const WorkSizes& s, std::size_t i) {
 
 float as_float(int i) { return std::bit_cast<float>(i); }
 
+static_assert(int{path_ox} == int{shadow_ox} && int{path_t} == int{shadow_t});
+
+/// The fields that both states begin with.
+void lay_out(const Ray& r, float* at, std::size_t stride) {
+    for (std::size_t axis = 0; axis < 3; axis++) {
+        at[(path_ox + axis) * stride] = r.origin[axis];
+        at[(path_dx + axis) * stride] = r.direction[axis];
+    }
+    at[path_t * stride] = r.t_max;
+}
+
 } // namespace
 
 OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::size_t primitives)
@@ -55,17 +66,8 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     params.film_width = params.film_height = params.crop_width = params.crop_height = side;
     params.blocks_x = sizes_.blocks_x;
     params.root = params.camera_root = root;
-    bind(intersect_, params);
-    bind(shadow_, params);
-}
-
-void OpenClTracer::bind(cl::Kernel& kernel, const RenderParams& params) {
-    cl_uint argument = 0;
-#define BIND_SCENE(type, name) kernel.setArg(argument++, scene_.name.handle());
-#define BIND_WORK(type, name) kernel.setArg(argument++, work_.name.handle());
-    SCENE_BUFFERS(BIND_SCENE)
-    WORK_BUFFERS(BIND_WORK)
-    kernel.setArg(params_argument, params);
+    bind_arguments(intersect_, scene_, work_, params);
+    bind_arguments(shadow_, scene_, work_, params);
 }
 
 void OpenClTracer::prepare(std::span<const Ray> rays, int depth, bool any_hit) {
@@ -98,13 +100,7 @@ void OpenClTracer::fill_paths(std::span<const Ray> rays) {
     for (std::size_t i = 0; i < rays.size(); i++) {
         const Ray& r = rays[i];
         float* at = state_.data() + entry(sizes_, i);
-        at[path_ox * stride] = r.origin[0];
-        at[path_oy * stride] = r.origin[1];
-        at[path_oz * stride] = r.origin[2];
-        at[path_dx * stride] = r.direction[0];
-        at[path_dy * stride] = r.direction[1];
-        at[path_dz * stride] = r.direction[2];
-        at[path_t * stride] = r.t_max;
+        lay_out(r, at, stride);
         at[path_excluded * stride] = as_float(r.excluded);
         at[path_slot * stride] = as_float(static_cast<int>(i));
     }
@@ -119,13 +115,7 @@ void OpenClTracer::fill_shadows(std::span<const Ray> rays) {
     for (std::size_t i = 0; i < rays.size(); i++) {
         const Ray& r = rays[i];
         float* at = state_.data() + entry(sizes_, i);
-        at[shadow_ox * stride] = r.origin[0];
-        at[shadow_oy * stride] = r.origin[1];
-        at[shadow_oz * stride] = r.origin[2];
-        at[shadow_dx * stride] = r.direction[0];
-        at[shadow_dy * stride] = r.direction[1];
-        at[shadow_dz * stride] = r.direction[2];
-        at[shadow_t * stride] = r.t_max;
+        lay_out(r, at, stride);
         at[shadow_r * stride] = at[shadow_g * stride] = at[shadow_b * stride] = 1;
         at[shadow_excluded * stride] = as_float(r.excluded);
         at[shadow_slot * stride] = as_float(static_cast<int>(i));

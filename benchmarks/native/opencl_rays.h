@@ -21,7 +21,6 @@ public:
     std::vector<Hit> hits() override;
 
 private:
-    void bind(cl::Kernel& kernel, const RenderParams& params);
     void fill_paths(std::span<const Ray> rays);
     void fill_shadows(std::span<const Ray> rays);
 

@@ -14,6 +14,7 @@
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
 #include <half.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,6 @@
 #include <fstream>
 #include <limits>
 #include <stdexcept>
-#include <thread>
 
 namespace parhelion {
 
@@ -139,7 +139,8 @@ std::size_t write_stream(const std::string& temporary, const Image& image, Imf::
     std::size_t misfits = 0;
     {
         Imf::StdOFStream sink(stream, temporary.c_str());
-        const int threads = static_cast<int>(std::thread::hardware_concurrency());
+        const int threads = static_cast<int>(
+            tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
         Imf::setGlobalThreadCount(threads);
         Imf::OutputFile output(sink, header, threads);
         misfits = write_rows(output, image, type);

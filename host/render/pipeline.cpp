@@ -91,14 +91,19 @@ void Pipeline::allocate(const WorkSizes& s) {
     counts_.resize(work_.counts.count());
 }
 
+void bind_arguments(cl::Kernel& kernel, const SceneBuffers& scene, const WorkBuffers& work,
+                    const RenderParams& params) {
+    cl_uint argument = 0;
+#define BIND_SCENE(type, name) kernel.setArg(argument++, scene.name.handle());
+#define BIND_WORK(type, name) kernel.setArg(argument++, work.name.handle());
+    SCENE_BUFFERS(BIND_SCENE)
+    WORK_BUFFERS(BIND_WORK)
+    kernel.setArg(params_argument, params);
+}
+
 void Pipeline::bind(const RenderParams& params) {
     for (cl::Kernel& kernel : stages_.kernels) {
-        cl_uint argument = 0;
-#define BIND_SCENE(type, name) kernel.setArg(argument++, scene_.name.handle());
-#define BIND_WORK(type, name) kernel.setArg(argument++, work_.name.handle());
-        SCENE_BUFFERS(BIND_SCENE)
-        WORK_BUFFERS(BIND_WORK)
-        kernel.setArg(params_argument, params);
+        bind_arguments(kernel, scene_, work_, params);
         kernel.setArg(depth_argument, 0);
     }
 }

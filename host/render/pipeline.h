@@ -48,6 +48,10 @@ struct WorkSizes {
 WorkSizes work_sizes(int crop_width, int crop_height, int samples, int lanes, int film_channels,
                      const WorkSplit& split);
 
+/// Binds buffers and parameters, all but the wave and the depth.
+void bind_arguments(cl::Kernel& kernel, const SceneBuffers& scene, const WorkBuffers& work,
+                    const RenderParams& params);
+
 class Pipeline {
 public:
     /// `device` must outlive it.

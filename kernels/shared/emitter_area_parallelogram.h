@@ -46,10 +46,6 @@ FN vec3 spherical_parallelogram_uniform(SphericalParallelogram s, vec2 u) {
     return spherical_triangle_uniform(t, v2(within / sel(there, t.solid_angle, R(1.)), u.y));
 }
 
-FN vec3 emitter_area_parallelogram_normal(Light l) {
-    return normalize3(cross3(sub3(light_b(l), light_a(l)), sub3(light_c(l), light_a(l))));
-}
-
 FN EmitterSample emitter_area_parallelogram_sample(Light l, vec3 p, vec2 u) {
     vec3 a = light_a(l);
     vec3 e1 = sub3(light_b(l), a), e2 = sub3(light_c(l), a);
@@ -65,18 +61,17 @@ FN EmitterSample emitter_area_parallelogram_sample(Light l, vec3 p, vec2 u) {
     vec3 q = add3(a, add3(scale3(e1, b.x), scale3(e2, b.y)));
     vec3 size = add3(abs3(a), add3(scale3(add3(abs3(light_b(l)), abs3(a)), b.x),
                                    scale3(add3(abs3(light_c(l)), abs3(a)), b.y)));
-    EmitterSample s = emitter_area_finish(l, p, q, scale3(size, GAMMA(7.f)),
-                                          emitter_area_parallelogram_normal(l));
+    EmitterSample s =
+        emitter_area_finish(l, p, q, scale3(size, GAMMA(7.f)), light_corners_normal(l));
     return emitter_solid_angle_finish(l, s, wide, seen.solid_angle);
 }
 
 FN Real emitter_area_parallelogram_pdf(Light l, vec3 p, vec3 wi, vec3 q) {
     Real seen = emitter_area_parallelogram_seen(l, p).solid_angle;
-    return emitter_solid_angle_pdf(l, seen,
-                                   emitter_area_pdf(l, p, q, emitter_area_parallelogram_normal(l)));
+    return emitter_solid_angle_pdf(l, seen, emitter_area_pdf(l, p, q, light_corners_normal(l)));
 }
 
 /// Does the emitter's bright side face against wi at the point q?
 FN Mask emitter_area_parallelogram_faces(Light l, vec3 wi, vec3 q) {
-    return dot3(emitter_area_parallelogram_normal(l), wi) < R(0.);
+    return dot3(light_corners_normal(l), wi) < R(0.);
 }

@@ -1,10 +1,6 @@
 // A triangle that emits from the side its winding faces: corners a, b, c. Chosen uniformly by solid
 // angle, or by area where it is seen too small for that (solid_angle.h).
 
-FN vec3 emitter_area_triangle_normal(Light l) {
-    return normalize3(cross3(sub3(light_b(l), light_a(l)), sub3(light_c(l), light_a(l))));
-}
-
 /// As seen from p; of solid angle 0 where that is not asked for.
 FN SphericalTriangle emitter_area_triangle_seen(Light l, vec3 p) {
     vec3 a = sub3(light_a(l), p), b = sub3(light_b(l), p), c = sub3(light_c(l), p);
@@ -36,17 +32,16 @@ FN EmitterSample emitter_area_triangle_sample(Light l, vec3 p, vec2 u) {
     }
     vec3 error = scale3(interpolate3(abs3(a0), abs3(a1), abs3(a2), b.x, b.y), GAMMA(7.f));
     EmitterSample s = emitter_area_finish(l, p, interpolate3(a0, a1, a2, b.x, b.y), error,
-                                          emitter_area_triangle_normal(l));
+                                          light_corners_normal(l));
     return emitter_solid_angle_finish(l, s, wide, seen.solid_angle);
 }
 
 FN Real emitter_area_triangle_pdf(Light l, vec3 p, vec3 wi, vec3 q) {
     Real seen = emitter_area_triangle_seen(l, p).solid_angle;
-    return emitter_solid_angle_pdf(l, seen,
-                                   emitter_area_pdf(l, p, q, emitter_area_triangle_normal(l)));
+    return emitter_solid_angle_pdf(l, seen, emitter_area_pdf(l, p, q, light_corners_normal(l)));
 }
 
 /// Does the emitter's bright side face against wi at the point q?
 FN Mask emitter_area_triangle_faces(Light l, vec3 wi, vec3 q) {
-    return dot3(emitter_area_triangle_normal(l), wi) < R(0.);
+    return dot3(light_corners_normal(l), wi) < R(0.);
 }

@@ -31,6 +31,10 @@ FN EmitterSample emitter_sample_none(void) {
 FN vec3 light_a(Light l) { return v3(l.ax, l.ay, l.az); }
 FN vec3 light_b(Light l) { return v3(l.bx, l.by, l.bz); }
 FN vec3 light_c(Light l) { return v3(l.cx, l.cy, l.cz); }
+/// Of an emitter with the corners a, b, c: the side that emits.
+FN vec3 light_corners_normal(Light l) {
+    return normalize3(cross3(sub3(light_b(l), light_a(l)), sub3(light_c(l), light_a(l))));
+}
 FN vec3 light_radiance(Light l) { return v3(l.r, l.g, l.b); }
 
 /// Finishes a sample chosen uniformly by area: l.density = pmf / area, q and its normal given.

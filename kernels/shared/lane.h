@@ -126,7 +126,6 @@ FN int lowest_bit(uint bits) { return 31 - (int)clz(bits & (0u - bits)); }
 
 #define sqrtR(x) sqrt(x)
 #define fmaR(a, b, c) fma(a, b, c)
-#define mulHigh(a, b) mul_hi(a, b)
 FN Real absR(Real a) { return asReal(asUint(a) & 0x7fffffffu); }
 FN Real copysignR(Real a, Real b) {
     return asReal((asUint(a) & 0x7fffffffu) | (asUint(b) & 0x80000000u));
@@ -157,7 +156,6 @@ FN Real sqrtR(Real x) { return std::sqrt(x); }
 FN Real fmaR(Real a, Real b, Real c) { return std::fma(a, b, c); }
 FN Real absR(Real a) { return std::fabs(a); }
 FN Real copysignR(Real a, Real b) { return std::copysign(a, b); }
-FN Uint mulHigh(Uint a, Uint b) { return (Uint)(((std::uint64_t)a * b) >> 32); }
 FN Mask finiteR(Real x) { return std::isfinite(x); }
 FN Real scale_by_power_of_two(Real x, Int n) { return std::ldexp(x, n); }
 #define LANE_NAN ((Real)NAN)

@@ -26,10 +26,8 @@ FN ProbeOut out_random4(Random4 r) {
     o = put2(o, 2, uniform2(r.z, r.w));
     o = put2(put2(o, 4, v2(toReal(asInt(r.x & 0xffffu)), toReal(asInt(r.x >> 16)))), 6,
              v2(toReal(asInt(r.y & 0xffffu)), toReal(asInt(r.y >> 16))));
-    o = put2(put2(o, 8, v2(toReal(asInt(r.z & 0xffffu)), toReal(asInt(r.z >> 16)))), 10,
+    return put2(put2(o, 8, v2(toReal(asInt(r.z & 0xffffu)), toReal(asInt(r.z >> 16)))), 10,
              v2(toReal(asInt(r.w & 0xffffu)), toReal(asInt(r.w >> 16))));
-    Uint high = mulHigh(r.x, r.y);
-    return put2(o, 12, v2(toReal(asInt(high & 0xffffu)), toReal(asInt(high >> 16))));
 }
 FN ProbeOut probe_random4(ProbeIn i) {
     return out_random4(
@@ -103,7 +101,7 @@ FN ProbeOut probe_russian_roulette(ProbeIn i) {
     PROBE(neighbours, "f", 2)                                                                      \
     PROBE(sincos_turns, "u", 2)                                                                    \
     PROBE(exp_negative, "s", 1) PROBE(atan2, "ff", 1) PROBE(acos, "c", 2)                          \
-        PROBE(random4, "bbbb", 14) PROBE(sobol4, "bbbb", 14) PROBE(disk_uniform, "uu", 2) PROBE(hemisphere_cosine, "uu", 3)  \
+        PROBE(random4, "bbbb", 12) PROBE(sobol4, "bbbb", 12) PROBE(disk_uniform, "uu", 2) PROBE(hemisphere_cosine, "uu", 3)  \
             PROBE(sphere_uniform, "uu", 3) PROBE(triangle_uniform, "uu", 2) PROBE(frame, "dp", 15) \
                 PROBE(frame_from_tangent, "dp", 9) PROBE(reflect, "dd", 6)                         \
                     PROBE(refract_local, "di", 3) PROBE(refract_about, "ddi", 3)                   \
