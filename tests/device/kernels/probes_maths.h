@@ -27,7 +27,7 @@ FN ProbeOut out_random4(Random4 r) {
     o = put2(put2(o, 4, v2(toReal(asInt(r.x & 0xffffu)), toReal(asInt(r.x >> 16)))), 6,
              v2(toReal(asInt(r.y & 0xffffu)), toReal(asInt(r.y >> 16))));
     return put2(put2(o, 8, v2(toReal(asInt(r.z & 0xffffu)), toReal(asInt(r.z >> 16)))), 10,
-             v2(toReal(asInt(r.w & 0xffffu)), toReal(asInt(r.w >> 16))));
+                v2(toReal(asInt(r.w & 0xffffu)), toReal(asInt(r.w >> 16))));
 }
 FN ProbeOut probe_random4(ProbeIn i) {
     return out_random4(
