@@ -14,7 +14,7 @@ FN FilterSample filter_sample(global const FilterBin* table, int bins, Real u) {
     FilterSample s;
     s.offset = u - .5f;
     s.weight = R(1.);
-    if (HAS(reconstruction_filter)) {
+    if (HAS(filter_sampling)) {
         Real scaled = u * (float)bins;
         Int bin = toInt(scaled);
         Real begin = gather((global const float*)table, bin * 2);
@@ -46,34 +46,38 @@ kernel void generate(KERNEL_PARAMETERS) {
         int block = wave.first_block + slot / (BLOCK_PIXELS * wave.sample_count);
         int sample = wave.first_sample + in_block / BLOCK_PIXELS;
         Int lane = (Int)(slot % BLOCK_PIXELS) + LANE_INDEX;
-        Int x = (Int)(block % params.blocks_x * 4) + (lane & 3);
-        Int y = (Int)(block / params.blocks_x * 4) + (lane >> 2);
-        Mask valid = (x < params.crop_width) & (y < params.crop_height);
-        x += params.crop_x;
-        y += params.crop_y;
-        Int pixel = y * params.film_width + x;
+        Int x = (Int)(params.block_x + block % params.blocks_x * 4) + (lane & 3);
+        Int y = (Int)(params.block_y + block / params.blocks_x * 4) + (lane >> 2);
+        Mask valid = (x >= params.window_x) & (x < params.window_x + params.window_width) &
+                     (y >= params.window_y) & (y < params.window_y + params.window_height);
+        Int pixel = y * params.pixel_stride + x;
         Random4 random = sampler_draw(asUint(pixel), (Uint)(uint)sample,
                                       (Uint)(uint)dimension_camera, (Uint)(uint)params.seed);
         FilterSample fx = filter_sample(filter_table, params.filter_bins, uniform01(random.x));
         FilterSample fy = filter_sample(filter_table, params.filter_bins, uniform01(random.y));
         vec2 film_position = v2(toReal(x) + .5f + fx.offset, toReal(y) + .5f + fy.offset);
         Real weight = fx.weight * fy.weight;
-        if (HAS(reconstruction_filter) && !params.sample_border) {
+        if (HAS(filter_sampling) && !params.sample_border) {
             // A wide filter reaches over the edge of the film: what lies there is no part of the
             // picture.
             Mask on_film =
                 (film_position.x >= 0.f) & (film_position.x <= (float)params.film_width) &
                 (film_position.y >= 0.f) & (film_position.y <= (float)params.film_height);
             valid = valid & on_film;
-            weight = sel(on_film, weight, R(0.));
         }
+        weight = sel(valid, weight, R(0.));
         vec2 lens = v2(R(0.), R(0.));
         if (HAS(thin_lens)) lens = disk_uniform(uniform2(random.z, random.w));
         CameraRay ray = camera_ray(camera, film_position, lens);
 
-        for (int channel = 0; channel < result_field_count + params.aov_channels; channel++)
+        int channels = result_field_count + params.aov_channels;
+        for (int channel = 0; channel < channels; channel++)
             STORE_REAL(RESULT(channel) + slot, (Real)0.f);
         STORE_REAL(RESULT(result_weight) + slot, weight);
+        if (HAS(filter_splatting)) {
+            STORE_REAL(RESULT(channels) + slot, fx.offset);
+            STORE_REAL(RESULT(channels + 1) + slot, fy.offset);
+        }
 
         uint bits = maskBits(valid);
         PATH_PACK_REAL(ox, ray.origin.x);

@@ -45,7 +45,10 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
 
     constexpr int side = 4 * 64; // pixels: with 1 sample they fill the pool
     static_assert(side * side == wave_rays);
-    sizes_ = work_sizes(side, side, 1, lanes, result_field_count, split_);
+    Film film;
+    film.width = film.height = film.crop_width = film.crop_height = side;
+    film.filter.kind = FilterKind::box;
+    sizes_ = work_sizes(sample_window(film), 1, lanes, result_field_count, split_);
     auto segments = static_cast<std::size_t>(sizes_.segments);
     work_.path_state = {device.context, "path_state", path_field_count * sizes_.state_stride()};
     work_.shadow_state = {device.context, "shadow_state",
@@ -63,8 +66,9 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     params.state_stride = static_cast<int>(sizes_.state_stride());
     params.segment_size = sizes_.segment_size;
     params.segment_stride = sizes_.segment_stride;
-    params.film_width = params.film_height = params.crop_width = params.crop_height = side;
-    params.blocks_x = sizes_.blocks_x;
+    params.film_width = params.film_height = side;
+    params.window_width = params.window_height = side;
+    params.blocks_x = sizes_.window.blocks_x;
     params.root = params.camera_root = root;
     bind_arguments(intersect_, scene_, work_, params);
     bind_arguments(shadow_, scene_, work_, params);

@@ -23,6 +23,9 @@ constexpr std::array<std::pair<std::string_view, IntegratorKind>, 5> integrators
 #define NAMED_PATTERN(name) std::pair{std::string_view(#name), SamplePattern::name},
 constexpr std::array patterns{SAMPLE_PATTERNS(NAMED_PATTERN)};
 
+#define NAMED_METHOD(name) std::pair{std::string_view(#name), FilterMethod::name},
+constexpr std::array filter_methods{FILTER_METHODS(NAMED_METHOD)};
+
 /// Integers separated by `separator`; fewer or more than N, or anything else, is an error that
 /// shows the form.
 template<std::size_t N>
@@ -95,6 +98,8 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (command.integrator)
         scene.integrator.kind = named("--integrator", *command.integrator, integrators);
     if (command.sampler) scene.sampler.pattern = named("--sampler", *command.sampler, patterns);
+    if (command.filter_method)
+        film.filter_method = named("--filter-by", *command.filter_method, filter_methods);
     if (command.samples) scene.sampler.samples_per_pixel = at_least("--spp", *command.samples, 1);
     if (command.max_depth)
         scene.integrator.max_depth = at_least("--max-depth", *command.max_depth, -1);

@@ -91,6 +91,9 @@ std::vector<Option> image_options(RenderCommand& c) {
         {"!--no-next-event", &c.next_event, "Do not sample emitters"},
         {"--sampler", &c.sampler,
          "sobol (a pattern over the samples of a pixel, the default) or independent"},
+        {"--filter-by", &c.filter_method,
+         "splatting (a sample counts for all pixels that the filter reaches, the default) or "
+         "sampling (for one pixel alone: pixels are independent)"},
         {"--seed", &c.seed, "Seed of the random numbers"},
         {"--aov",
          &c.aovs,

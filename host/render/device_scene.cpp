@@ -139,7 +139,10 @@ static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
         out.materials.push_back(material_record(material.bsdf));
     add_light_table(scene, choice, out);
     if (!out.light_tree.nodes.empty()) out.features |= light_tree_features(out.features);
-    out.filter_table = make_filter_table(scene.film.filter);
+    if (out.features & feature_bit(feature_filter_splatting))
+        out.filter_values = make_filter_values(scene.film.filter);
+    if (out.features & feature_bit(feature_filter_sampling))
+        out.filter_table = make_filter_table(scene.film.filter);
     return out;
 }
 
@@ -158,8 +161,8 @@ DeviceScene make_device_scene(const Scene& scene, LightChoice choice) {
 std::size_t DeviceScene::bytes() const {
     auto size = [](const auto& v) { return v.size() * sizeof(v[0]); };
     return size(primitives) + size(vertices) + size(materials) + size(lights) +
-           size(light_tree.nodes) + size(light_tree.leaves) + size(filter_table) + size(bvh.nodes) +
-           size(bvh.leaves);
+           size(light_tree.nodes) + size(light_tree.leaves) + size(filter_table) +
+           size(filter_values) + size(bvh.nodes) + size(bvh.leaves);
 }
 
 } // namespace parhelion

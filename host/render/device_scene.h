@@ -31,6 +31,7 @@ struct DeviceScene {
     std::vector<LightRecord> lights;
     LightTree light_tree; ///< empty where there is only one light
     std::vector<FilterBin> filter_table;
+    std::vector<float> filter_values;
     Bvh bvh;
     BvhStatistics bvh_statistics;
     int camera_root = 0; ///< differs from root where emitters are hidden from the camera

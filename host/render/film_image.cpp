@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -27,36 +28,65 @@ std::string aov_kind_names() {
     return text;
 }
 
-/// Reads one film channel as means: (sum + rounding error) / weight, or the plain sum.
+/// The range of tiles along one axis that hold a pixel, counted from the first block's corner.
+struct TileRange {
+    int first, last;
+
+    TileRange(int pixel, int reach, int blocks)
+        : first(std::max(0, (pixel - reach) / 4)), last(std::min(blocks - 1, (pixel + reach) / 4)) {
+    }
+};
+
+/// Reads the film's channels as means: sum / weight, each over all tiles that hold the pixel.
 class FilmReader {
 public:
     FilmReader(const std::vector<float>& film, const WorkSizes& sizes, const Film& crop)
-        : film_(film), sizes_(sizes), crop_(crop) {}
+        : film_(film), sizes_(sizes), crop_(crop), weights_(sums(result_weight)) {}
 
     std::vector<float> means(int channel) const {
-        std::vector<float> out;
-        out.reserve(static_cast<std::size_t>(crop_.crop_width) * crop_.crop_height);
-        for (int y = 0; y < crop_.crop_height; y++)
-            for (int x = 0; x < crop_.crop_width; x++) {
-                double weight = sum(result_weight, x, y);
-                // No sample, or filter weights that cancel exactly: there is no mean, and black
-                // would be a lie only there.
-                out.push_back(
-                    static_cast<float>(weight != 0.0 ? sum(channel, x, y) / weight : 0.0));
-            }
+        std::vector<double> values = sums(channel);
+        std::vector<float> out(values.size());
+        // No sample, or filter weights that cancel exactly: there is no mean, and black would be a
+        // lie only there.
+        for (std::size_t i = 0; i < out.size(); i++)
+            if (weights_[i] != 0.0) out[i] = static_cast<float>(values[i] / weights_[i]);
         return out;
     }
 
 private:
+    std::vector<double> sums(int channel) const {
+        std::vector<double> out;
+        out.reserve(static_cast<std::size_t>(crop_.crop_width) * crop_.crop_height);
+        for (int y = 0; y < crop_.crop_height; y++)
+            for (int x = 0; x < crop_.crop_width; x++)
+                out.push_back(sum(channel, x + crop_.crop_x, y + crop_.crop_y));
+        return out;
+    }
+
+    /// In the order of the tiles, with the rounding errors of the device's sums.
     double sum(int channel, int x, int y) const {
-        std::size_t block = static_cast<std::size_t>(y / 4) * sizes_.blocks_x + x / 4;
-        std::size_t at = channel * sizes_.film_stride() + block * BLOCK_PIXELS + y % 4 * 4 + x % 4;
-        return double{film_[at]} + film_[at + sizes_.film_channels * sizes_.film_stride()];
+        const SampleWindow& window = sizes_.window;
+        int from_x = x - window.block_x, from_y = y - window.block_y,
+            side = TILE_SIDE(window.reach);
+        TileRange columns(from_x, window.reach, window.blocks_x);
+        TileRange rows(from_y, window.reach, window.blocks_y);
+        std::size_t errors = sizes_.film_channels * sizes_.film_stride();
+        double total = 0.0;
+        for (int row = rows.first; row <= rows.last; row++)
+            for (int column = columns.first; column <= columns.last; column++) {
+                std::size_t tile = static_cast<std::size_t>(row) * window.blocks_x + column;
+                int cell =
+                    (from_y - 4 * row + window.reach) * side + from_x - 4 * column + window.reach;
+                std::size_t at = channel * sizes_.film_stride() + tile * window.tile_cells() + cell;
+                total += double{film_[at]} + film_[at + errors];
+            }
+        return total;
     }
 
     const std::vector<float>& film_;
     const WorkSizes& sizes_;
     const Film& crop_;
+    std::vector<double> weights_;
 };
 
 /// Linear Rec. 709 to CIE XYZ (ITU-R BT.709 primaries, D65), rows X, Y, Z: the figures Mitsuba 3

@@ -1,4 +1,4 @@
-// Reconstruction filters as tables of equally likely bins.
+// Reconstruction filters as the device reads them: tables of values, or of equally likely bins.
 #include "host/render/filter_table.h"
 
 #include <cmath>
@@ -71,8 +71,21 @@ double filter_value(const ReconstructionFilter& filter, double x) {
     return 0.0;
 }
 
+int filter_reach(const Film& film) {
+    if (film.filter_method == FilterMethod::sampling) return 0;
+    double reach = std::ceil(filter_radius(film.filter) + 0.5) - 1.0;
+    return reach > FILTER_REACH_LIMIT ? 0 : static_cast<int>(reach);
+}
+
+std::vector<float> make_filter_values(const ReconstructionFilter& filter) {
+    constexpr int count = FILTER_REACH_LIMIT * FILTER_INTERVALS + FILTER_INTERVALS / 2 + 2;
+    std::vector<float> values(count);
+    for (int n = 0; n < count; n++)
+        values[n] = static_cast<float>(filter_value(filter, double(n) / FILTER_INTERVALS));
+    return values;
+}
+
 std::vector<FilterBin> make_filter_table(const ReconstructionFilter& filter) {
-    if (filter.kind == FilterKind::box) return {};
     double radius = filter_radius(filter), cell = radius / cells_per_side;
     // Running integrals of |f| and of f at the borders of the cells.
     std::vector<double> absolute{0.0}, plain{0.0};

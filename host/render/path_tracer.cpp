@@ -35,9 +35,12 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.camera = camera_record(scene.camera, scene.film.width, scene.film.height);
     p.film_width = scene.film.width, p.film_height = scene.film.height;
     p.sample_border = scene.film.sample_border;
-    p.crop_x = scene.film.crop_x, p.crop_y = scene.film.crop_y;
-    p.crop_width = scene.film.crop_width, p.crop_height = scene.film.crop_height;
-    p.blocks_x = sizes.blocks_x;
+    p.pixel_stride = sizes.window.pixel_stride;
+    p.window_x = sizes.window.x, p.window_y = sizes.window.y;
+    p.window_width = sizes.window.width, p.window_height = sizes.window.height;
+    p.block_x = sizes.window.block_x, p.block_y = sizes.window.block_y;
+    p.blocks_x = sizes.window.blocks_x;
+    p.filter_reach = sizes.window.reach;
     p.seed = static_cast<int>(scene.sampler.seed);
     p.max_depth = longest_path(scene.integrator);
     p.rr_depth = scene.integrator.rr_depth;
@@ -81,7 +84,8 @@ void trace_wave(Pipeline& pipeline, const WaveParams& wave, const WorkSizes& siz
 void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
                  const RenderParams& params, bool next_event, int work_group, Progress& progress) {
     auto start = Clock::now();
-    int samples = scene.sampler.samples_per_pixel, blocks = sizes.blocks_x * sizes.blocks_y;
+    int samples = scene.sampler.samples_per_pixel;
+    int blocks = static_cast<int>(sizes.window.tiles());
     double total = static_cast<double>(samples) * blocks, done = 0.0;
     for (int sample = 0; sample < samples; sample += sizes.samples_per_wave) {
         int sample_count = std::min(sizes.samples_per_wave, samples - sample);
@@ -151,9 +155,8 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     start = Clock::now();
     int film_channels =
         result_field_count + aovs.channels + (scene.integrator.second_moment ? 3 : 0);
-    WorkSizes sizes =
-        work_sizes(scene.film.crop_width, scene.film.crop_height, scene.sampler.samples_per_pixel,
-                   lanes, film_channels, options.split);
+    WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, lanes,
+                                 film_channels, options.split);
     RenderParams params = render_params(scene, flat, sizes, aovs);
     pipeline.upload(flat);
     pipeline.allocate(sizes);

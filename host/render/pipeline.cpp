@@ -8,6 +8,9 @@
 namespace parhelion {
 namespace {
 
+/// Results have fewer channels than the film, but for the two of a sample's offset.
+constexpr int offset_channels = 2;
+
 int rounded_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
 
 template<class T>
@@ -27,18 +30,19 @@ std::size_t WorkBuffers::bytes() const {
     return 0 WORK_BUFFERS(ADD_BYTES);
 }
 
-WorkSizes work_sizes(int crop_width, int crop_height, int samples, int lanes, int film_channels,
+WorkSizes work_sizes(const SampleWindow& window, int samples, int lanes, int film_channels,
                      const WorkSplit& split) {
     WorkSizes s;
-    s.blocks_x = (crop_width + 3) / 4;
-    s.blocks_y = (crop_height + 3) / 4;
-    int groups = std::max(1, split.pool_paths / BLOCK_PIXELS);
+    s.window = window;
+    // What is splatted together must be in one wave.
+    int together = window.reach > 0 ? SPLAT_SAMPLES : 1;
+    int groups = std::max(together, split.pool_paths / BLOCK_PIXELS);
     // Few samples of many blocks, so that neighbouring pixels share a segment; more where the film
     // is too small to fill the pool.
     constexpr int usual = 16;
-    std::int64_t blocks = static_cast<std::int64_t>(s.blocks_x) * s.blocks_y;
+    auto blocks = static_cast<std::int64_t>(window.tiles());
     int to_fill = static_cast<int>(std::max<std::int64_t>(usual, groups / blocks));
-    s.samples_per_wave = std::min({samples, to_fill, groups});
+    s.samples_per_wave = std::min(samples, std::min(to_fill, groups) / together * together);
     s.blocks_per_wave =
         static_cast<int>(std::min<std::int64_t>(groups / s.samples_per_wave, blocks));
     s.path_capacity = s.blocks_per_wave * s.samples_per_wave * BLOCK_PIXELS;
@@ -66,15 +70,17 @@ void Pipeline::upload(const DeviceScene& scene) {
         const std::vector<LightNodeRecord>& light_nodes;
         const std::vector<int>& light_leaves;
         const std::vector<FilterBin>& filter_table;
+        const std::vector<float>& filter_values;
     } arrays{scene.bvh.nodes,        scene.bvh.leaves,        scene.primitives,
              scene.vertices,         scene.materials,         scene.lights,
-             scene.light_tree.nodes, scene.light_tree.leaves, scene.filter_table};
+             scene.light_tree.nodes, scene.light_tree.leaves, scene.filter_table,
+             scene.filter_values};
 #define UPLOAD(type, name) scene_.name = make_buffer(device_, #name, arrays.name);
     SCENE_BUFFERS(UPLOAD)
 }
 
 void Pipeline::allocate(const WorkSizes& s) {
-    std::size_t result_channels = std::max(s.film_channels, static_cast<int>(result_field_count));
+    std::size_t result_channels = s.film_channels + offset_channels;
     std::size_t counted = std::max(s.segments, s.blocks_per_wave);
     work_.path_state = {device_.context, "path_state", path_field_count * s.state_stride()};
     work_.shadow_state = {device_.context, "shadow_state", shadow_field_count * s.state_stride()};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/cl/buffer.h"
+#include "host/render/sample_window.h"
 #include "host/render/stage_programs.h"
 
 #include <sys/types.h> // ulong, as the kernels call it
@@ -35,17 +36,17 @@ constexpr std::size_t odd_lines(std::size_t floats) { return 16 * ((floats + 15)
 struct WorkSizes {
     int samples_per_wave = 1, blocks_per_wave = 1, path_capacity = 16;
     int segments = 1, segment_size = 16, segment_stride = 32;
-    int blocks_x = 1, blocks_y = 1;
+    SampleWindow window;
     int film_channels = 5;
 
     std::size_t result_stride() const { return odd_lines(path_capacity); }
-    std::size_t film_stride() const { return odd_lines(std::size_t{16} * blocks_x * blocks_y); }
+    std::size_t film_stride() const { return odd_lines(window.tiles() * window.tile_cells()); }
     std::size_t state_stride() const {
         return odd_lines(static_cast<std::size_t>(segments) * segment_stride);
     }
 };
 
-WorkSizes work_sizes(int crop_width, int crop_height, int samples, int lanes, int film_channels,
+WorkSizes work_sizes(const SampleWindow& window, int samples, int lanes, int film_channels,
                      const WorkSplit& split);
 
 /// Binds buffers and parameters, all but the wave and the depth.

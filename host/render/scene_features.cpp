@@ -4,6 +4,7 @@
 #include "host/render/material_records.h"
 
 #include "host/render/device_scene.h"
+#include "host/render/filter_table.h"
 #include "host/render/parallelograms.h"
 
 #include <algorithm>
@@ -130,6 +131,11 @@ void add_transport(const Integrator& integrator, FeatureSet& set) {
     set.add_if(integrator.hide_emitters, feature_hide_emitters);
 }
 
+void add_filter(const Film& film, FeatureSet& set) {
+    if (film.filter.kind == FilterKind::box) return;
+    set.add(filter_reach(film) > 0 ? feature_filter_splatting : feature_filter_sampling);
+}
+
 } // namespace
 
 std::uint64_t scene_features(const Scene& scene) {
@@ -142,7 +148,7 @@ std::uint64_t scene_features(const Scene& scene) {
         std::visit([&](const auto& x) { add_emitter(x, set); }, e);
     set.add_if(scene.sampler.pattern == SamplePattern::sobol, feature_sobol);
     set.add_if(scene.camera.aperture_radius > 0.0, feature_thin_lens);
-    set.add_if(scene.film.filter.kind != FilterKind::box, feature_reconstruction_filter);
+    add_filter(scene.film, set);
     set.add_if(integrator.kind == IntegratorKind::normals, feature_view_normals);
     set.add_if(integrator.kind == IntegratorKind::depth, feature_view_depth);
     set.add_if(integrator.second_moment, feature_moments);

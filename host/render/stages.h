@@ -36,7 +36,8 @@ inline constexpr std::size_t stage_count = stage_names.size();
 constexpr std::uint64_t stage_features(Stage stage) {
 #define SHAPE_BIT(name) | feature_bit(feature_shape_##name)
     constexpr std::uint64_t shapes = 0 GEOMETRIES(SHAPE_BIT);
-    constexpr std::uint64_t film = feature_bit(feature_reconstruction_filter);
+    constexpr std::uint64_t splatting = feature_bit(feature_filter_splatting);
+    constexpr std::uint64_t film = splatting | feature_bit(feature_filter_sampling);
     constexpr std::uint64_t streams = feature_bit(feature_ray_streams);
     switch (stage) {
     case Stage::generate:
@@ -45,7 +46,7 @@ constexpr std::uint64_t stage_features(Stage stage) {
     case Stage::shadow:
         return shapes | streams;
     case Stage::accumulate:
-        return feature_bit(feature_moments);
+        return splatting | feature_bit(feature_moments);
     case Stage::shade:
         return ~(film | streams | feature_bit(feature_thin_lens) | feature_bit(feature_moments));
     }

@@ -198,6 +198,12 @@ struct ReconstructionFilter {
     int lanczos_lobes = 3;
 };
 
+/// How a filter wider than a pixel is applied: a sample counts for every pixel that the filter
+/// reaches, or it lies where the filter has put it and counts for one pixel alone.
+#define FILTER_METHODS(X) X(splatting) X(sampling)
+#define METHOD_ENUM(name) name,
+enum class FilterMethod { FILTER_METHODS(METHOD_ENUM) };
+
 struct Film {
     int width = 768, height = 576;
     int crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0; ///< 0 x 0: the whole film
@@ -205,6 +211,7 @@ struct Film {
     ComponentFormat component_format = ComponentFormat::float32;
     bool sample_border = false; ///< the filter also reaches for light beyond the edge of the film
     ReconstructionFilter filter;
+    FilterMethod filter_method = FilterMethod::splatting;
 };
 
 enum class IntegratorKind { path, direct, depth, normals, aov };

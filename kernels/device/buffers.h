@@ -15,15 +15,17 @@
     X(PrimitiveRecord, primitives) X(VertexRecord, vertices)                                       \
     X(MaterialRecord, materials) X(LightRecord, lights)                                            \
     X(LightNodeRecord, light_nodes) X(int, light_leaves) /* the leaf of each light */              \
-    X(FilterBin, filter_table)
+    X(FilterBin, filter_table) X(float, filter_values) /* at n / FILTER_INTERVALS pixels */
 
 // element type, name: what a render works on
 //   path_state    PATH_FIELDS x state_stride: live paths, packed at the front of each segment
 //   shadow_state  SHADOW_FIELDS x state_stride: shadow rays, likewise
-//   results       RESULT_FIELDS + AOV channels, x result_stride: what each path slot has gathered
+//   results       RESULT_FIELDS + AOV channels, x result_stride: what each path slot has gathered;
+//                 if HAS(filter_splatting), two more: its offset from the centre of its pixel
 //   counts        2 a segment: live paths, shadow rays
 //   statistics    STATISTICS a segment
-//   film          2 floats (sum, rounding error of the sum) x channels x film_stride
+//   film          2 floats (sum, rounding error of the sum) x channels x film_stride; a channel holds
+//                 a tile a block
 #define WORK_BUFFERS(X)                                                                            \
     X(float, path_state) X(float, shadow_state) X(float, results)                                  \
     X(int, counts) X(ulong, statistics) X(float, film)

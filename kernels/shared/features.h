@@ -33,7 +33,8 @@
     X(ggx) X(beckmann) X(anisotropy)                                                               \
     X(sobol)              /* samples of a pixel in a pattern; without: independent */               \
     X(thin_lens)                                                                                   \
-    X(reconstruction_filter) /* any but the box */                                                 \
+    X(filter_splatting)   /* a sample counts for all pixels that the filter reaches */              \
+    X(filter_sampling)    /* a sample lies where the filter has put it, and counts for one pixel */ \
     X(light_tree)         /* more than one light to choose from */                                 \
     X(next_event)         /* direct light is sampled at every vertex */                            \
     X(emission)           /* emitters that a ray can meet */                                       \

@@ -90,7 +90,7 @@ LAYOUT(LightRecord, 64);
 typedef struct { LIGHT_NODE_FIELDS(FIELD_DECLARE) } LightNodeRecord;
 LAYOUT(LightNodeRecord, 64);
 
-// One of equally likely bins of a reconstruction filter along one axis: it starts at x (pixels from the centre), ends where the
+// Film. Sampling a filter: one of equally likely bins along one axis: it starts at x (pixels from the centre), ends where the
 // next one starts, and its samples have this weight (negative in a negative lobe).
 typedef struct {
     float x, weight;
@@ -135,17 +135,19 @@ LAYOUT(CameraRecord, 84);
 
 // What all kernels of a render are told.
 #define RENDER_FIELDS(X)                                                                           \
-    X(int, film_width)                        /* full film, pixels: the stride of pixel numbers */ \
-    X(int, film_height)                                                                            \
+    X(int, film_width) X(int, film_height)    /* full film, pixels */                               \
+    X(int, pixel_stride)                      /* from one row's pixel numbers to the next one's */  \
     X(int, sample_border)                     /* 1: samples beyond the edge of the film count */    \
-    X(int, crop_x) X(int, crop_y) X(int, crop_width) X(int, crop_height)                           \
-    X(int, blocks_x)                          /* 4x4 pixel blocks in a row of the crop */           \
+    X(int, window_x) X(int, window_y) X(int, window_width) X(int, window_height) /* sampled */     \
+    X(int, block_x) X(int, block_y)           /* pixel in the corner of the first 4x4 block */      \
+    X(int, blocks_x)                          /* blocks in a row of the window */                   \
     X(int, seed)                                                                                   \
     X(int, max_depth)                         /* edges from the camera; INT_MAX without limit */    \
     X(int, rr_depth)                                                                               \
     X(int, constant_light)                    /* row of the constant environment, -1: none */       \
     X(int, sky_covers)                        /* 1: the sky counts for alpha */                     \
-    X(int, filter_bins)                       /* 0: box */                                          \
+    X(int, filter_bins)                       /* of filter_table */                                 \
+    X(int, filter_reach)                      /* pixels on each side that a sample counts for */    \
     X(int, state_stride)                      /* floats between two fields of the path state */     \
     X(int, result_stride)                     /* floats between two channels of the results */     \
     X(int, film_stride)                       /* floats between two channels of the film */        \
@@ -158,7 +160,7 @@ typedef struct {
     RENDER_FIELDS(FIELD_DECLARE)
     int aov_offset[AOV_LIMIT]; // first film channel of each AOV kind, -1: not asked for
 } RenderParams;
-LAYOUT(RenderParams, 84 + 22 * 4 + AOV_LIMIT * 4);
+LAYOUT(RenderParams, 84 + 26 * 4 + AOV_LIMIT * 4);
 
 // A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
 // Slot p of the pool is lane p % 16 of sample (p / 16) % sample_count of block p / (16 * sample_count).
@@ -169,6 +171,18 @@ typedef struct {
 LAYOUT(WaveParams, 16);
 
 #define BLOCK_PIXELS 16
+
+// A block's samples go to a tile of the film: the block, and around it as many pixels as the filter reaches. Its cells, row by
+// row, are padded to whole packets.
+#define FILTER_REACH_LIMIT 4
+#define TILE_SIDE(reach) (4 + 2 * (reach))
+#define TILE_CELLS(reach) ((TILE_SIDE(reach) * TILE_SIDE(reach) + 15) / 16 * 16)
+
+// Splatting adds up so many samples of a block before the film gets their sum: waves hold a multiple of them.
+#define SPLAT_SAMPLES 16
+
+// Intervals a pixel of a filter's tabulated values; between them they are interpolated.
+#define FILTER_INTERVALS 1024
 
 // clang-format on
 

@@ -49,6 +49,8 @@ def parhelion_render(program, case, spp, seeds, extra):
                 # The tests' smallest believed variance is that of one independent sample.
                 "--sampler",
                 "independent",
+                "--filter-by",
+                "sampling",
                 "--force",
                 "--quiet",
             ]

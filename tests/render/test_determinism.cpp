@@ -93,13 +93,19 @@ TEST_CASE("The image is the same bits however the work is done", "[render]") {
     }
     SECTION("crop") {
         const int windows[][4] = {{0, 0, 40, 30}, {3, 5, 17, 11}, {39, 29, 1, 1}, {8, 0, 4, 30}};
-        for (const auto& [x, y, width, height] : windows) {
-            Scene part = scene;
-            part.film.crop_x = x, part.film.crop_y = y, part.film.crop_width = width,
-            part.film.crop_height = height;
-            CAPTURE(x, y, width, height);
-            CHECK(differing_values(reference, image_of(part, {})) == 0);
-        }
+        for (bool border : {false, true})
+            for (FilterMethod method : {FilterMethod::splatting, FilterMethod::sampling}) {
+                scene.film.sample_border = border;
+                scene.film.filter_method = method;
+                Image full = image_of(scene, {});
+                for (const auto& [x, y, width, height] : windows) {
+                    Scene part = scene;
+                    part.film.crop_x = x, part.film.crop_y = y, part.film.crop_width = width,
+                    part.film.crop_height = height;
+                    CAPTURE(border, int(method), x, y, width, height);
+                    CHECK(differing_values(full, image_of(part, {})) == 0);
+                }
+            }
     }
 }
 

@@ -81,7 +81,7 @@ inline Scene every_kind_scene() {
     scene.integrator.rr_depth = 3;
     scene.integrator.second_moment = true;
     scene.integrator.aovs = {{"nn", "sh_normal", {}}, {"dd", "depth", {}}, {"uv", "uv", {}}};
-    scene.sampler.samples_per_pixel = 7;
+    scene.sampler.samples_per_pixel = 18;
     scene.sampler.seed = 5;
     return scene;
 }

@@ -143,7 +143,7 @@ private:
         const Buffer<BvhLeaf>& bvh_leaves = leaves_;
         // Not read by these kernels.
         Buffer<int> primitives, vertices, materials, lights, light_nodes, light_leaves,
-            filter_table, film;
+            filter_table, filter_values, film;
         RenderParams params{};
         params.state_stride = params.result_stride = static_cast<int>(s.stride());
         params.segment_size = params.segment_stride = segment;
