@@ -2,6 +2,7 @@
 #include "device/device.h"
 #include "device/lanes_memory.h"
 #include "device/path_state.h"
+#include "device/wave.h"
 
 typedef struct {
     Real offset, weight;
@@ -41,18 +42,15 @@ kernel void generate(KERNEL_PARAMETERS) {
     int to = segment * params.segment_stride, begin = to;
     Camera camera = camera_lanes(params.camera);
     for (int slot = first; slot < last; slot += LANES) {
-        // All lanes of a packet share block and sample: a block has 16 pixels.
-        int in_block = slot % (BLOCK_PIXELS * wave.sample_count);
-        int block = wave.first_block + slot / (BLOCK_PIXELS * wave.sample_count);
-        int sample = wave.first_sample + in_block / BLOCK_PIXELS;
-        Int lane = (Int)(slot % BLOCK_PIXELS) + LANE_INDEX;
-        Int x = (Int)(params.block_x + block % params.blocks_x * 4) + (lane & 3);
-        Int y = (Int)(params.block_y + block / params.blocks_x * 4) + (lane >> 2);
+        int block = slot_block(wave, slot);
+        SlotSample s = slot_sample(wave, slot);
+        Int x = params.block_x + block % params.blocks_x * 4 + s.x;
+        Int y = params.block_y + block / params.blocks_x * 4 + s.y;
         Mask valid = (x >= params.window_x) & (x < params.window_x + params.window_width) &
                      (y >= params.window_y) & (y < params.window_y + params.window_height);
         Int pixel = y * params.pixel_stride + x;
-        Random4 random = sampler_draw(asUint(pixel), (Uint)(uint)sample,
-                                      (Uint)(uint)dimension_camera, (Uint)(uint)params.seed);
+        Random4 random = sampler_draw(asUint(pixel), asUint(s.sample), (Uint)(uint)dimension_camera,
+                                      (Uint)(uint)params.seed);
         FilterSample fx = filter_sample(filter_table, params.filter_bins, uniform01(random.x));
         FilterSample fy = filter_sample(filter_table, params.filter_bins, uniform01(random.y));
         vec2 film_position = v2(toReal(x) + .5f + fx.offset, toReal(y) + .5f + fy.offset);
@@ -94,7 +92,7 @@ kernel void generate(KERNEL_PARAMETERS) {
         PATH_PACK_REAL(eta_scale, (Real)1.f);
         PATH_PACK_INT(slot, (Int)slot + LANE_INDEX);
         PATH_PACK_INT(pixel, pixel);
-        PATH_PACK_INT(sample, (Int)sample);
+        PATH_PACK_INT(sample, s.sample);
         PATH_PACK_INT(excluded, (Int)(-1));
         to += popcount(bits);
     }

@@ -11,18 +11,26 @@ FN void film_add(global float* sum, global float* error, Real v) {
     STORE_REAL(error, LOAD_REAL(error) + e);
 }
 
-/// The samples of a packet's slots whose radiance is finite; the others are left out.
-FN Mask finite_samples(global const float* results, long stride, long slot) {
-    return finite3(v3(LOAD_REAL(results + result_r * stride + slot),
-                      LOAD_REAL(results + result_g * stride + slot),
-                      LOAD_REAL(results + result_b * stride + slot)));
+/// What the samples of a block have gathered.
+typedef struct {
+    global const float* results; // from the block's first slot on
+    long stride;                 // floats between two channels
+    int squares;                 // the first channel of second moments, behind all results
+} BlockResults;
+
+FN Real block_result(BlockResults b, int channel, Int slot) {
+    return gather(b.results + channel * b.stride, slot);
 }
 
-/// What a sample has for a channel of the film, to be weighted; `squares` is the first channel of
-/// second moments.
-FN Real sample_value(global const float* results, long stride, long slot, int channel,
-                     int squares) {
+/// The samples whose radiance is finite; the others are left out.
+FN Mask finite_samples(BlockResults b, Int slot) {
+    return finite3(v3(block_result(b, result_r, slot), block_result(b, result_g, slot),
+                      block_result(b, result_b, slot)));
+}
+
+/// What a sample has for a channel of the film, to be weighted.
+FN Real sample_value(BlockResults b, int channel, Int slot) {
     if (channel == result_weight) return R(1.);
-    if (channel < squares) return LOAD_REAL(results + channel * stride + slot);
-    return square(LOAD_REAL(results + (channel - squares) * stride + slot));
+    if (channel < b.squares) return block_result(b, channel, slot);
+    return square(block_result(b, channel - b.squares, slot));
 }

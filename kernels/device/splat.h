@@ -6,7 +6,6 @@
 // cell, in an order that is the same for any number of lanes, before the film gets their sum.
 
 #define REACH_PIXELS (2 * FILTER_REACH_LIMIT + 1)
-#define BLOCK_PARTS (BLOCK_PIXELS / LANES)
 
 /// The weights of a packet's samples along both axes for the pixels from -reach to reach; those
 /// along y hold the sample's own weight too.
@@ -72,27 +71,25 @@ FN void tile_splat(float* tile, int reach, int part, const Real* values,
     }
 }
 
-/// Splats the samples [first, first + count) of a block, count <= SPLAT_SAMPLES; `slots` is the
-/// place of its first sample, `sums` and `errors` those of its tile. Returns how many samples were
-/// not finite and are left out.
-FN uint splat_block(global const float* results, long slots, int first, int count,
+/// Splats the samples [first, first + count) of a block to its tile, count <= SPLAT_SAMPLES.
+/// Returns how many samples were not finite and are left out.
+FN uint splat_block(BlockResults block, WaveParams wave, int first, int count,
                     global const float* filter, const RenderParams* params, int film_channels,
                     global float* sums, global float* errors) {
     SplatWeights weights[BLOCK_PARTS][SPLAT_SAMPLES];
     uint good[BLOCK_PARTS][SPLAT_SAMPLES];
-    int reach = params->filter_reach, squares = result_field_count + params->aov_channels;
-    long stride = params->result_stride;
+    int reach = params->filter_reach;
     uint dropped = 0;
     for (int part = 0; part < BLOCK_PARTS; part++)
         for (int n = 0; n < count; n++) {
-            long slot = slots + (long)(first + n) * BLOCK_PIXELS + part * LANES;
-            Mask finite = finite_samples(results, stride, slot);
+            Int slot = part_slots(wave, part, first + n);
+            Mask finite = finite_samples(block, slot);
             good[part][n] = maskBits(finite);
             dropped += LANES - popcount(good[part][n]);
-            Real weight = LOAD_REAL(results + result_weight * stride + slot);
-            splat_weights(
-                &weights[part][n], filter, reach, LOAD_REAL(results + squares * stride + slot),
-                LOAD_REAL(results + (squares + 1) * stride + slot), sel(finite, weight, R(0.)));
+            Real weight = sel(finite, block_result(block, result_weight, slot), R(0.));
+            splat_weights(&weights[part][n], filter, reach,
+                          block_result(block, block.squares, slot),
+                          block_result(block, block.squares + 1, slot), weight);
         }
     for (int channel = 0; channel < film_channels; channel++) {
         Real tile[TILE_CELLS(FILTER_REACH_LIMIT) / LANES];
@@ -100,11 +97,10 @@ FN uint splat_block(global const float* results, long slots, int first, int coun
             tile[k] = R(0.);
         for (int part = 0; part < BLOCK_PARTS; part++) {
             Real values[SPLAT_SAMPLES];
-            for (int n = 0; n < count; n++) {
-                long slot = slots + (long)(first + n) * BLOCK_PIXELS + part * LANES;
-                values[n] = sel(lanesOf(good[part][n]),
-                                sample_value(results, stride, slot, channel, squares), R(0.));
-            }
+            for (int n = 0; n < count; n++)
+                values[n] =
+                    sel(lanesOf(good[part][n]),
+                        sample_value(block, channel, part_slots(wave, part, first + n)), R(0.));
             tile_splat((float*)tile, reach, part, values, weights[part], count);
         }
         for (int k = 0; k < TILE_CELLS(reach) / LANES; k++) {

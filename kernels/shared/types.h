@@ -163,7 +163,7 @@ typedef struct {
 LAYOUT(RenderParams, 84 + 26 * 4 + AOV_LIMIT * 4);
 
 // A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
-// Slot p of the pool is lane p % 16 of sample (p / 16) % sample_count of block p / (16 * sample_count).
+// Which of them a slot of the pool is, device/wave.h says.
 typedef struct {
     int first_block, block_count;
     int first_sample, sample_count;
