@@ -1,4 +1,6 @@
 """render: how many paths and rays a second, where the time goes, and how it grows."""
+from concurrent.futures import ThreadPoolExecutor
+
 from . import fits, scenes
 from .context import check, say, thread_counts
 from .renderer import kernel_seconds, render
@@ -96,14 +98,30 @@ def _checks_of_stages(rows):
 
 
 def _threads(context, scene, spp):
-    """Pairs of runs, so that what the machine does beside falls on both."""
-    rows, pairs = [], []
+    """Runs of one round stand side by side, so that what the machine does beside falls on all: one thread, all threads,
+    and as many processes of one thread each at once, which have nothing to share or to wait for but the machine."""
+    counts = thread_counts()
+    if len(counts) < 2:
+        return [], []
+    rows = []
     for _ in range(3 if context.quick else 7):
-        pair = [_row(f"{t} threads", render(context, scene, spp=spp, threads=t)) for t in thread_counts()]
-        rows.append({row["name"]: row["mrays_per_second"] for row in pair})
-        pairs.append(pair[-1]["mrays_per_second"] / pair[0]["mrays_per_second"])
-    checks = [check("render, Cornell box: rays of 2 threads over 1", fits.median(pairs), least=1.8)]
-    return rows, checks if len(thread_counts()) > 1 else []
+        row = {f"{t} threads": _row("", render(context, scene, spp=spp, threads=t))["mrays_per_second"] for t in counts}
+        row[f"{counts[-1]} processes"] = _mrays_of_processes(context, scene, spp, counts[-1])
+        rows.append(row)
+    one, many, apart = ([row[name] for row in rows] for name in rows[0])
+    return rows, [
+        check(f"render, Cornell box: rays of {counts[-1]} threads over 1",
+              fits.median([m / o for m, o in zip(many, one)]), least=1.8,
+              note=f"as many processes of one thread each: {fits.median([a / o for a, o in zip(apart, one)]):.2f}"),
+        check(f"render, Cornell box: rays of {counts[-1]} threads over as many processes of one each",
+              fits.median([m / a for m, a in zip(many, apart)]), least=1.8 / 2)]
+
+
+def _mrays_of_processes(context, scene, spp, count):
+    with ThreadPoolExecutor(count) as pool:
+        runs = pool.map(lambda k: render(context, scene, spp=spp, output=context.scratch / f"process-{k}.exr"),
+                        range(count))
+        return sum(run["rates"]["rays_per_second"] / 1e6 for run in runs)
 
 
 def _resolution(context, scene):
