@@ -48,6 +48,7 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     Film film;
     film.width = film.height = film.crop_width = film.crop_height = side;
     film.filter.kind = FilterKind::box;
+    split_.streams = 1;
     sizes_ = work_sizes(sample_window(film), 1, lanes, result_field_count, split_);
     auto segments = static_cast<std::size_t>(sizes_.segments);
     work_.path_state = {device.context, "path_state", path_field_count * sizes_.state_stride()};
@@ -56,7 +57,7 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     work_.results = {device.context, "results", result_field_count * sizes_.result_stride()};
     work_.counts = {device.context, "counts", 2 * segments};
     work_.statistics = {device.context, "statistics", statistic_count * segments};
-    work_.film = {device.context, "film", 1};
+    film_ = {device.context, "film", 1};
 
     scene_.bvh_nodes = {device.context, device.queue, "nodes", bvh.nodes.data(), bvh.nodes.size()};
     scene_.bvh_leaves = {device.context, device.queue, "leaves", bvh.leaves.data(),
@@ -70,8 +71,8 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     params.window_width = params.window_height = side;
     params.blocks_x = sizes_.window.blocks_x;
     params.root = params.camera_root = root;
-    bind_arguments(intersect_, scene_, work_, params);
-    bind_arguments(shadow_, scene_, work_, params);
+    bind_arguments(intersect_, scene_, work_, film_, params);
+    bind_arguments(shadow_, scene_, work_, film_, params);
 }
 
 void OpenClTracer::prepare(std::span<const Ray> rays, int depth, bool any_hit) {

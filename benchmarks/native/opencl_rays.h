@@ -28,7 +28,8 @@ private:
     WorkSplit split_;
     WorkSizes sizes_;
     SceneBuffers scene_; ///< a kernel does not keep its arguments alive
-    WorkBuffers work_;
+    WaveBuffers work_;
+    Buffer<float> film_;
     cl::Kernel intersect_, shadow_;
     std::vector<float> state_;
     std::size_t count_ = 0;

@@ -68,6 +68,9 @@ void check_command(const RenderCommand& command) {
     if (lanes != 0 && lanes != 1 && lanes != 8 && lanes != 16)
         throw InputError(
             fmt::format("--lanes {}: there are 1, 8 and 16 (0: what suits the device)", lanes));
+    if (command.options.split.streams < 0)
+        throw InputError(fmt::format("--streams {}: must be 0 (what suits the device) or more",
+                                     command.options.split.streams));
     if (command.threads < 0)
         throw InputError(fmt::format("--threads {}: must be 0 (all) or more", command.threads));
 }
@@ -115,6 +118,8 @@ std::vector<Option> split_options(RenderCommand& c) {
         {"--pool-paths", &c.options.split.pool_paths, "Paths in flight"},
         {"--segment-paths", &c.options.split.segment_paths, "Paths a work-item owns"},
         {"--work-group-size", &c.options.split.work_group_size, "Work-items in a group"},
+        {"--streams", &c.options.split.streams,
+         "Waves under way at once, which share the pool; 0 for what suits the device"},
         {"--lanes", &c.options.lanes,
          "Values a kernel handles at once: 1, 8, 16; 0 for the device's"},
         {"--portable", &c.options.portable, "Kernels without x86 intrinsics"},

@@ -5,11 +5,14 @@
 #include "host/render/camera_record.h"
 #include "host/render/film_image.h"
 #include "host/render/scene_features.h"
+#include "host/render/wave_schedule.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 #include <limits>
+#include <mutex>
 
 namespace parhelion {
 namespace {
@@ -64,40 +67,59 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
 }
 
 /// All bounces of one wave, then its samples to the film.
-void trace_wave(Pipeline& pipeline, const WaveParams& wave, const WorkSizes& sizes,
-                const RenderParams& params, bool next_event, int work_group) {
-    pipeline.set_wave(wave);
-    pipeline.launch(Stage::generate, 0, sizes.segments, work_group);
+void trace_wave(WaveStream& stream, const WaveParams& wave, const WorkSizes& sizes,
+                const RenderParams& params, bool next_event) {
+    stream.set_wave(wave);
+    stream.launch(Stage::generate, 0, sizes.segments);
     for (int depth = 0; depth < params.max_depth; depth++) {
-        pipeline.launch(Stage::intersect, depth, sizes.segments, work_group);
-        pipeline.launch(Stage::shade, depth, sizes.segments, work_group);
+        stream.launch(Stage::intersect, depth, sizes.segments);
+        stream.launch(Stage::shade, depth, sizes.segments);
         if (depth + 1 == params.max_depth) break;
-        auto [paths, shadow_rays] = pipeline.read_counts();
-        if (next_event && shadow_rays > 0)
-            pipeline.launch(Stage::shadow, depth, sizes.segments, work_group);
+        auto [paths, shadow_rays] = stream.read_counts();
+        if (next_event && shadow_rays > 0) stream.launch(Stage::shadow, depth, sizes.segments);
         if (paths == 0) break;
     }
-    pipeline.launch(Stage::accumulate, 0, wave.block_count, work_group);
-    pipeline.collect_times();
+    stream.launch(Stage::accumulate, 0, wave.block_count);
+    stream.collect_times();
 }
 
+/// A host thread for each stream: while one waits for the last work-items of a stage, the device
+/// has the other's to do.
 void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
-                 const RenderParams& params, bool next_event, int work_group, Progress& progress) {
+                 const RenderParams& params, bool next_event, Progress& progress) {
     auto start = Clock::now();
     int samples = scene.sampler.samples_per_pixel;
     int blocks = static_cast<int>(sizes.window.tiles());
-    double total = static_cast<double>(samples) * blocks, done = 0.0;
-    for (int sample = 0; sample < samples; sample += sizes.samples_per_wave) {
-        int sample_count = std::min(sizes.samples_per_wave, samples - sample);
-        for (int block = 0; block < blocks; block += sizes.blocks_per_wave) {
-            int block_count = std::min(sizes.blocks_per_wave, blocks - block);
-            trace_wave(pipeline, {block, block_count, sample, sample_count}, sizes, params,
-                       next_event, work_group);
-            done += static_cast<double>(sample_count) * block_count;
-            double rate = done * BLOCK_PIXELS / seconds_since(start) / 1e6;
-            progress.update(done / total, fmt::format("{:.2f} Mpaths/s", rate));
+    double paths = static_cast<double>(samples) * blocks * BLOCK_PIXELS;
+    WaveSchedule schedule(blocks, samples, sizes.blocks_per_wave, sizes.samples_per_wave);
+    std::mutex showing;
+    auto run = [&](WaveStream& stream) {
+        try {
+            while (auto wave = schedule.take()) {
+                trace_wave(stream, *wave, sizes, params, next_event);
+                std::scoped_lock lock(showing);
+                double done = schedule.finish(*wave);
+                double rate = done * paths / seconds_since(start) / 1e6;
+                progress.update(done, fmt::format("{:.2f} Mpaths/s", rate));
+            }
+        } catch (...) {
+            schedule.give_up();
+            throw;
         }
-    }
+    };
+    std::vector<std::future<void>> streams;
+    for (WaveStream& stream : pipeline.streams())
+        streams.push_back(std::async(std::launch::async, run, std::ref(stream)));
+    for (auto& stream : streams)
+        stream.wait();
+    for (auto& stream : streams)
+        stream.get();
+}
+
+/// Streams for the device to choose from: two where several cores would wait for each other.
+int stream_count(const WorkSplit& split, const Device& device) {
+    if (split.streams > 0) return split.streams;
+    return device.is_cpu && device.compute_units > 1 ? 2 : 1;
 }
 
 void add_counts(const std::array<std::uint64_t, statistic_count>& statistics,
@@ -155,19 +177,19 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     start = Clock::now();
     int film_channels =
         result_field_count + aovs.channels + (scene.integrator.second_moment ? 3 : 0);
+    WorkSplit split = options.split;
+    split.streams = stream_count(split, device.device);
     WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, lanes,
-                                 film_channels, options.split);
+                                 film_channels, split);
     RenderParams params = render_params(scene, flat, sizes, aovs);
     pipeline.upload(flat);
-    pipeline.allocate(sizes);
-    pipeline.bind(params);
+    pipeline.allocate(sizes, params);
     result.report.upload_seconds = seconds_since(start);
 
     progress.start("rendering");
     start = Clock::now();
     bool next_event = flat.features & feature_bit(feature_next_event);
-    trace_image(pipeline, scene, sizes, params, next_event, options.split.work_group_size,
-                progress);
+    trace_image(pipeline, scene, sizes, params, next_event, progress);
     result.report.render_seconds = seconds_since(start);
     add_counts(pipeline.read_statistics(), result.report);
     result.report.stages = pipeline.stage_reports();

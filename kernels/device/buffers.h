@@ -26,9 +26,10 @@
 //   statistics    STATISTICS a segment
 //   film          2 floats (sum, rounding error of the sum) x channels x film_stride; a channel holds
 //                 a tile a block
-#define WORK_BUFFERS(X)                                                                            \
+#define WAVE_BUFFERS(X)                                                                            \
     X(float, path_state) X(float, shadow_state) X(float, results)                                  \
-    X(int, counts) X(ulong, statistics) X(float, film)
+    X(int, counts) X(ulong, statistics)
+#define WORK_BUFFERS(X) WAVE_BUFFERS(X) X(float, film)
 
 // One path: ray (t: the end of the ray, then the distance of the hit), throughput, density of its direction, product of the
 // indices of refraction, hit coordinates, its slot, its random number stream, what the ray must not hit, what it hit.

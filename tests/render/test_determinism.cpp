@@ -87,6 +87,11 @@ TEST_CASE("The image is the same bits however the work is done", "[render]") {
                     CHECK(differing_values(reference, image_of(scene, options)) == 0);
                 }
         RenderOptions options;
+        for (int streams : {1, 2, 3}) {
+            options.split = {8192, 1024, 1, streams};
+            CAPTURE(streams);
+            CHECK(differing_values(reference, image_of(scene, options)) == 0);
+        }
         options.lanes = 1;
         options.split = {1000, 37, 2};
         CHECK(differing_values(reference, image_of(scene, options)) == 0);
