@@ -33,7 +33,10 @@ Device describe(const cl::Device& handle, const std::string& platform, int index
     d.max_allocation_bytes = handle.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
     d.compute_units = handle.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     d.float_width = std::max(1u, handle.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>());
-    d.keeps_programs = platform == "Portable Computing Language";
+    bool pocl = platform == "Portable Computing Language";
+    d.keeps_programs = pocl;
+    // The guard of the header with all of OpenCL's functions; lane.h declares those in use.
+    if (pocl) d.quick_options = "-D_OPENCL_H_ -DDECLARE_BUILTINS";
     d.fp64 = handle.getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_fp64") != std::string::npos;
     return d;
 }

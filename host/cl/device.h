@@ -23,6 +23,8 @@ struct Device {
     /// The driver keeps compiled programs on disk itself; asking it for a binary would make it
     /// compile every kernel once more (PoCL: for work-groups of any size).
     bool keeps_programs = false;
+    /// Compiler options that only save time; what does not compile with them is compiled without.
+    std::string quick_options;
 
     /// Values a lane-generic kernel handles at once here: 16 or 8 on CPUs, 1 elsewhere.
     int lanes() const;

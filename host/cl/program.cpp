@@ -68,8 +68,21 @@ bool Program::build_from(const cl::Context& context, const Device& device,
     }
 }
 
+bool Program::build_quickly(const cl::Context& context, const Device& device,
+                            const ProgramSource& source) {
+    if (device.quick_options.empty()) return false;
+    try {
+        program_ = cl::Program(context, source.text);
+        program_.build({device.handle}, (source.options + " " + device.quick_options).c_str());
+        return true;
+    } catch (const cl::Error&) {
+        return false; // what is wrong with the source shows again without the options
+    }
+}
+
 void Program::build_source(const cl::Context& context, const Device& device,
                            const ProgramSource& source) {
+    if (build_quickly(context, device, source)) return;
     program_ = cl::Program(context, source.text);
     try {
         program_.build({device.handle}, source.options.c_str());

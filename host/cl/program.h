@@ -48,6 +48,8 @@ private:
                     const std::vector<unsigned char>& binary);
     void build_source(const cl::Context& context, const Device& device,
                       const ProgramSource& source);
+    bool build_quickly(const cl::Context& context, const Device& device,
+                       const ProgramSource& source);
 
     std::string key_;
     cl::Program program_;
