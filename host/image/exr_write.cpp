@@ -76,6 +76,8 @@ Imf::Header make_header(const Image& image, Imf::PixelType type) {
     const Box2i data(corner, corner + V2i(image.width - 1, image.height - 1));
     Imf::Header header(display, data, 1.0f, Imath::V2f(0, 0), 1.0f, Imf::INCREASING_Y,
                        Imf::ZIP_COMPRESSION);
+    // Noise hardly compresses: measured, level 4 makes files 0.3 % smaller in a tenth more time.
+    header.zipCompressionLevel() = 2;
     Imf::addChromaticities(header, Imf::Chromaticities()); // the default is Rec. 709 with D65
     for (const Channel& channel : image.channels)
         header.channels().insert(channel.name, Imf::Channel(type));
