@@ -1,5 +1,6 @@
 // The program: its subcommands, and errors turned into one line and an exit code.
 #include "host/commands/compare.h"
+#include "host/commands/compile.h"
 #include "host/commands/devices.h"
 #include "host/commands/info.h"
 #include "host/commands/render.h"
@@ -28,7 +29,7 @@ CommandLine command_line() {
                   "Each subcommand has its own --help with examples.",
         .version = version_text,
         .subcommands = {render_subcommand(), compare_subcommand(), info_subcommand(),
-                        devices_subcommand()},
+                        compile_subcommand(), devices_subcommand()},
     };
 }
 

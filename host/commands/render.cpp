@@ -2,6 +2,7 @@
 #include "host/commands/render.h"
 
 #include "host/clock.h"
+#include "host/commands/compile.h"
 #include "host/error.h"
 #include "host/image/exr.h"
 #include "host/image/output.h"
@@ -58,19 +59,7 @@ void write_stats(const std::string& file, const RenderReport& report) {
 void check_command(const RenderCommand& command) {
     if (command.exposure && image_format(command.output) != ImageFormat::png)
         throw InputError("--exposure: is for .png previews; an .exr holds linear values");
-    int group = command.options.split.work_group_size;
-    if (command.options.split.pool_paths < BLOCK_PIXELS ||
-        command.options.split.segment_paths < 1 || group < 1)
-        throw InputError(fmt::format(
-            "--pool-paths must be at least {}, --segment-paths and --work-group-size at least 1",
-            BLOCK_PIXELS));
-    int lanes = command.options.lanes;
-    if (lanes != 0 && lanes != 1 && lanes != 8 && lanes != 16)
-        throw InputError(
-            fmt::format("--lanes {}: there are 1, 8 and 16 (0: what suits the device)", lanes));
-    if (command.options.split.streams < 0)
-        throw InputError(fmt::format("--streams {}: must be 0 (what suits the device) or more",
-                                     command.options.split.streams));
+    check_split(command.options);
     if (command.threads < 0)
         throw InputError(fmt::format("--threads {}: must be 0 (all) or more", command.threads));
 }
@@ -85,52 +74,87 @@ std::vector<Option> image_options(RenderCommand& c) {
         {"scene", &c.scene_file, "Scene file (Mitsuba 3 XML)", {.required = true}},
         {"-o,--output", &c.output, "Image to write, .exr or .png"},
         {"--spp", &c.samples, "Samples per pixel"},
+        {"--size", &c.size, "Film size, WIDTHxHEIGHT"},
+        {"--crop", &c.crop, "Part of the film, X,Y,WIDTH,HEIGHT"},
+        {"--seed", &c.seed, "Seed of the random numbers"},
+        {"--exposure", &c.exposure, "Stops of exposure for .png"},
+        {"--stats", &c.stats_file, "Write times, counts and memory as JSON"},
+        {"--force", &c.force, "Overwrite the image if it exists"},
+        {"--threads", &c.threads, "CPU threads, 0 for all"},
+    };
+}
+
+constexpr const char* split_group = "How work is split (the image stays the same to the bit)";
+
+std::vector<Option> pool_options(RenderCommand& c) {
+    return {
+        {"--pool-paths", &c.options.split.pool_paths, "Paths in flight", {.group = split_group}},
+        {"--segment-paths",
+         &c.options.split.segment_paths,
+         "Paths a work-item owns",
+         {.group = split_group}},
+        {"--streams",
+         &c.options.split.streams,
+         "Waves under way at once, which share the pool; 0 for what suits the device",
+         {.group = split_group}},
+    };
+}
+
+} // namespace
+
+std::vector<Option> kernel_options(RenderCommand& c) {
+    return {
         {"--integrator", &c.integrator, "path, direct, normals, depth or aov"},
         {"--max-depth", &c.max_depth,
          "Longest path in edges: 1 emitters only, 2 direct light, -1 no limit"},
         {"--rr-depth", &c.rr_depth, "Russian roulette from this many vertices on"},
-        {"--size", &c.size, "Film size, WIDTHxHEIGHT"},
-        {"--crop", &c.crop, "Part of the film, X,Y,WIDTH,HEIGHT"},
         {"!--no-next-event", &c.next_event, "Do not sample emitters"},
         {"--sampler", &c.sampler,
          "sobol (a pattern over the samples of a pixel, the default) or independent"},
         {"--filter-by", &c.filter_method,
          "splatting (a sample counts for all pixels that the filter reaches, the default) or "
          "sampling (for one pixel alone: pixels are independent)"},
-        {"--seed", &c.seed, "Seed of the random numbers"},
         {"--aov",
          &c.aovs,
          "Layers beside the image, e.g. albedo,normals,depth",
          {.delimiter = ','}},
         {"-D,--define", &c.definitions, "name=value for the scene's $name (repeat for more)"},
         {"--device", &c.device, "Device by index or part of its name (see `parhelion devices`)"},
-        {"--exposure", &c.exposure, "Stops of exposure for .png"},
-        {"--stats", &c.stats_file, "Write times, counts and memory as JSON"},
-        {"--force", &c.force, "Overwrite the image if it exists"},
         {"-q,--quiet", &c.quiet, "No progress"},
         {"--allow-outside", &c.allow_outside, "Let the scene name files outside its own folder"},
-        {"--threads", &c.threads, "CPU threads, 0 for all"},
+        {"--work-group-size",
+         &c.options.split.work_group_size,
+         "Work-items in a group",
+         {.group = split_group}},
+        {"--lanes",
+         &c.options.lanes,
+         "Values a kernel handles at once: 1, 8, 16; 0 for the device's",
+         {.group = split_group}},
+        {"--portable",
+         &c.options.portable,
+         "Kernels without x86 intrinsics",
+         {.group = split_group}},
+        {"--all-features",
+         &c.options.all_features,
+         "Kernels not specialised to the scene",
+         {.group = split_group}},
     };
 }
 
-std::vector<Option> split_options(RenderCommand& c) {
-    std::vector<Option> options{
-        {"--pool-paths", &c.options.split.pool_paths, "Paths in flight"},
-        {"--segment-paths", &c.options.split.segment_paths, "Paths a work-item owns"},
-        {"--work-group-size", &c.options.split.work_group_size, "Work-items in a group"},
-        {"--streams", &c.options.split.streams,
-         "Waves under way at once, which share the pool; 0 for what suits the device"},
-        {"--lanes", &c.options.lanes,
-         "Values a kernel handles at once: 1, 8, 16; 0 for the device's"},
-        {"--portable", &c.options.portable, "Kernels without x86 intrinsics"},
-        {"--all-features", &c.options.all_features, "Kernels not specialised to the scene"},
-    };
-    for (Option& option : options)
-        option.rules.group = "How work is split (the image stays the same to the bit)";
-    return options;
+void check_split(const RenderOptions& options) {
+    if (options.split.pool_paths < BLOCK_PIXELS || options.split.segment_paths < 1 ||
+        options.split.work_group_size < 1)
+        throw InputError(fmt::format(
+            "--pool-paths must be at least {}, --segment-paths and --work-group-size at least 1",
+            BLOCK_PIXELS));
+    int lanes = options.lanes;
+    if (lanes != 0 && lanes != 1 && lanes != 8 && lanes != 16)
+        throw InputError(
+            fmt::format("--lanes {}: there are 1, 8 and 16 (0: what suits the device)", lanes));
+    if (options.split.streams < 0)
+        throw InputError(fmt::format("--streams {}: must be 0 (what suits the device) or more",
+                                     options.split.streams));
 }
-
-} // namespace
 
 int run_render(const RenderCommand& command) {
     check_output(command.output, command.force);
@@ -153,7 +177,8 @@ int run_render(const RenderCommand& command) {
     for (const std::string& note : scene.notes)
         progress.note("note: " + note);
 
-    RenderDevice device(choose_device(command.device));
+    RenderDevice& device = open_to_the_end(choose_device(command.device));
+    device.compile_beside = compile_in_own_process(device.device);
     RenderResult result = render(scene, device, command.options, progress);
     result.report.load_seconds = load_seconds;
     add_metadata(scene, result.report, result.image);
@@ -186,7 +211,9 @@ Subcommand render_subcommand() {
         .options = image_options(*c),
         .run = [c] { return run_render(*c); },
     };
-    for (const Option& option : split_options(*c))
+    for (const Option& option : kernel_options(*c))
+        render.options.push_back(option);
+    for (const Option& option : pool_options(*c))
         render.options.push_back(option);
     return render;
 }

@@ -35,6 +35,12 @@ void apply_overrides(const RenderCommand& command, Scene& scene);
 
 Subcommand render_subcommand();
 
+/// The options that have a say in which kernels an image needs.
+std::vector<Option> kernel_options(RenderCommand& command);
+
+/// Throws InputError for a split that cannot be.
+void check_split(const RenderOptions& options);
+
 /// -D name=value pairs. Throws InputError for one without '='.
 std::map<std::string, std::string> parse_definitions(const std::vector<std::string>& definitions);
 

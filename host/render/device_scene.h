@@ -50,5 +50,7 @@ constexpr std::uint64_t feature_bit(Feature f) { return std::uint64_t{1} << f; }
 
 /// The names of the features in a mask, in the order of the lists in kernels/shared/features.h.
 std::vector<std::string> feature_names(std::uint64_t mask);
+/// And back. Throws InputError for a name that is none.
+std::uint64_t feature_mask(const std::vector<std::string>& names);
 
 } // namespace parhelion

@@ -152,6 +152,10 @@ RenderReport start_report(const Scene& scene, const Device& device, const Device
 
 } // namespace
 
+std::uint64_t render_features(const DeviceScene& scene, const RenderOptions& options) {
+    return options.all_features ? scene.features | neutral_features() : scene.features;
+}
+
 RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
                     Progress& progress) {
     AovPlan aovs = plan_aovs(scene.integrator);
@@ -167,11 +171,11 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
 
     progress.start("compiling kernels");
     start = Clock::now();
-    std::uint64_t features =
-        options.all_features ? flat.features | neutral_features() : flat.features;
-    Pipeline pipeline(device, {lanes, options.portable, features, options.split.work_group_size});
+    Pipeline pipeline(device, {lanes, options.portable, render_features(flat, options),
+                               options.split.work_group_size});
     result.report.compile_seconds = seconds_since(start);
     result.report.stages = pipeline.stage_reports();
+    result.report.compiler_peak_bytes = pipeline.compiler_peak_bytes();
     progress.finish(result.report.all_cached() ? "cached" : "compiled");
 
     start = Clock::now();
@@ -200,7 +204,6 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
         static_cast<double>(result.report.paths) / result.report.render_seconds / 1e6,
         static_cast<double>(result.report.rays()) / result.report.render_seconds / 1e6));
     result.image = film_image(pipeline.read_film(), sizes, scene, aovs);
-    pipeline.store_programs();
     return result;
 }
 

@@ -19,6 +19,9 @@ struct RenderOptions {
     bool all_features = false; ///< kernels that can do everything, whatever the scene needs
 };
 
+/// What the kernels of an image have.
+std::uint64_t render_features(const DeviceScene& scene, const RenderOptions& options);
+
 struct RenderResult {
     Image image;
     RenderReport report;

@@ -76,8 +76,6 @@ std::vector<StageReport> Pipeline::stage_reports() const {
     return reports;
 }
 
-void Pipeline::store_programs() const { parhelion::store_programs(device_, stages_); }
-
 std::size_t Pipeline::pool_bytes() const {
     std::size_t bytes = 0;
     for (const WaveStream& stream : streams_)

@@ -22,10 +22,10 @@ public:
     /// Of all streams.
     std::array<std::uint64_t, statistic_count> read_statistics();
     std::vector<StageReport> stage_reports() const;
+    /// Of the process that compiled beside this one, bytes; 0: there was none.
+    std::uint64_t compiler_peak_bytes() const { return stages_.beside_peak_bytes; }
     std::size_t pool_bytes() const;
     std::size_t film_bytes() const { return film_.bytes(); }
-    /// Keeps freshly compiled programs for the next run.
-    void store_programs() const;
 
 private:
     RenderDevice& device_;

@@ -1,12 +1,20 @@
 // A device opened for rendering.
 #pragma once
 
+#include "host/child_process.h"
 #include "host/cl/program.h"
+#include "host/render/stages.h"
 
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace parhelion {
+
+/// Starts a process that compiles one program for the same device, so that it is found compiled
+/// afterwards; nothing where that cannot be.
+using CompileBeside = std::function<std::optional<ChildProcess>(ProgramGroup, const StageOptions&)>;
 
 /// Context, queue, and the programs compiled so far, which later renders take over. One render at a
 /// time.
@@ -19,6 +27,11 @@ struct RenderDevice {
     cl::CommandQueue queue;
     ProgramCache cache = ProgramCache::standard();
     std::map<std::string, Program> programs; ///< by key
+    CompileBeside compile_beside;            ///< may be empty: all is compiled in this process
 };
+
+/// For what a program does last: the process ends without closing the device, which would take the
+/// compiler's memory apart first (0.1 s where kernels have been compiled).
+inline RenderDevice& open_to_the_end(const Device& device) { return *new RenderDevice(device); }
 
 } // namespace parhelion

@@ -30,7 +30,8 @@ struct RenderReport {
                   non_finite_samples = 0;
     std::uint64_t primitives = 0, lights = 0;
     std::uint64_t device_scene_bytes = 0, device_pool_bytes = 0, device_film_bytes = 0,
-                  host_peak_bytes = 0;
+                  host_peak_bytes = 0,
+                  compiler_peak_bytes = 0; ///< of a second process that compiled kernels; 0: none
     std::vector<std::string> features, skipped_features;
 
     std::uint64_t rays() const { return camera_rays + bounce_rays + shadow_rays; }

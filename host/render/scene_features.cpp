@@ -1,16 +1,29 @@
 // The one place that decides which features a scene's kernels have.
 #include "host/render/scene_features.h"
 
-#include "host/render/material_records.h"
-
+#include "host/error.h"
 #include "host/render/device_scene.h"
 #include "host/render/filter_table.h"
+#include "host/render/material_records.h"
 #include "host/render/parallelograms.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
 
 namespace parhelion {
 namespace {
+
+#define MATERIAL_NAME(name, sides) "bsdf_" #name,
+#define EMITTER_NAME(name) "emitter_" #name,
+#define GEOMETRY_NAME(name) "shape_" #name,
+#define OTHER_NAME(name) #name,
+/// In the order of enum Feature.
+constexpr std::array names_of_features{MATERIALS(MATERIAL_NAME) EMITTERS(EMITTER_NAME)
+                                           GEOMETRIES(GEOMETRY_NAME) OTHER_FEATURES(OTHER_NAME)};
+static_assert(names_of_features.size() == feature_count);
 
 struct FeatureSet {
     std::uint64_t mask = 0;
@@ -182,19 +195,21 @@ std::uint64_t neutral_features() {
 
 std::vector<std::string> feature_names(std::uint64_t mask) {
     std::vector<std::string> names;
-#define NAME_MATERIAL(name, sides)                                                                 \
-    if (mask & feature_bit(feature_bsdf_##name)) names.push_back("bsdf_" #name);
-#define NAME_EMITTER(name)                                                                         \
-    if (mask & feature_bit(feature_emitter_##name)) names.push_back("emitter_" #name);
-#define NAME_GEOMETRY(name)                                                                        \
-    if (mask & feature_bit(feature_shape_##name)) names.push_back("shape_" #name);
-#define NAME_OTHER(name)                                                                           \
-    if (mask & feature_bit(feature_##name)) names.push_back(#name);
-    MATERIALS(NAME_MATERIAL)
-    EMITTERS(NAME_EMITTER)
-    GEOMETRIES(NAME_GEOMETRY)
-    OTHER_FEATURES(NAME_OTHER)
+    for (std::size_t i = 0; i < names_of_features.size(); i++)
+        if ((mask >> i) & 1u) names.emplace_back(names_of_features[i]);
     return names;
+}
+
+std::uint64_t feature_mask(const std::vector<std::string>& names) {
+    std::uint64_t mask = 0;
+    for (const std::string& name : names) {
+        auto found = std::find(names_of_features.begin(), names_of_features.end(), name);
+        if (found == names_of_features.end())
+            throw InputError(fmt::format("'{}' is no feature of kernels; there are {}", name,
+                                         fmt::join(names_of_features, " ")));
+        mask |= std::uint64_t{1} << (found - names_of_features.begin());
+    }
+    return mask;
 }
 
 } // namespace parhelion

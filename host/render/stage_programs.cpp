@@ -7,7 +7,10 @@
 
 #include <sys/types.h> // ulong, as the kernels call it
 
+#include <algorithm>
 #include <future>
+#include <optional>
+#include <utility>
 
 namespace parhelion {
 namespace {
@@ -28,32 +31,41 @@ std::string program_key(const Device& device, const ProgramSource& source, int w
     return fmt::format("work-groups of {}\n", work_group_size) + source.key(device);
 }
 
-struct Compiled {
-    Program program;
-    bool cached;
-    double seconds;
+/// A program to be had.
+struct Wanted {
+    ProgramGroup group{};
+    ProgramSource source;
+    std::string key;
+    bool opened = false; ///< among the device's programs
+    bool kept = false;   ///< a process before this one had it, and the driver keeps it
 };
 
-Compiled compile_group(const RenderDevice& d, const ProgramSource& source, const std::string& key) {
-    auto start = Clock::now();
-    if (auto found = d.programs.find(key); found != d.programs.end())
-        return {found->second, true, seconds_since(start)};
-    if (!d.device.keeps_programs) {
-        Program program(d.context, d.device, d.cache, source);
-        return {program, program.from_cache(), seconds_since(start)};
-    }
+Wanted wanted(const RenderDevice& d, ProgramGroup group, const StageOptions& options) {
+    Wanted w{group, group_source(group, options), {}};
+    w.key = program_key(d.device, w.source, options.work_group_size);
+    w.opened = d.programs.contains(w.key);
     // An entry without a binary: the driver has the program.
-    bool known = d.cache.load(key).has_value();
-    return {Program(d.context, d.device, ProgramCache({}), source), known, seconds_since(start)};
+    w.kept = d.device.keeps_programs && d.cache.load(w.key).has_value();
+    return w;
 }
+
+struct Compiled {
+    Program program;
+    bool cached = false;
+    double seconds = 0.0;
+    std::uint64_t beside_peak_bytes = 0;
+};
 
 /// Some drivers finish compiling a kernel at its first launch (PoCL: for that size of work-group):
 /// a launch without paths belongs to compiling.
-void launch_empty(const RenderDevice& d, std::vector<cl::Kernel>& kernels, int work_group_size) {
+void launch_empty(const RenderDevice& d, const Wanted& w, const Program& program,
+                  int work_group_size) {
     Buffer<ulong> zeros(d.context, "zeros",
                         static_cast<std::size_t>(statistic_count) * work_group_size);
     zeros.fill_zero(d.queue);
-    for (cl::Kernel& kernel : kernels) {
+    for (std::size_t stage = 0; stage < stage_count; stage++) {
+        if (stage_groups[stage] != w.group) continue;
+        cl::Kernel kernel = program.kernel(stage_names[stage]);
         for (cl_uint i = 0; i < buffer_arguments; i++)
             kernel.setArg(i, zeros.handle());
         kernel.setArg(params_argument, RenderParams{});
@@ -63,6 +75,37 @@ void launch_empty(const RenderDevice& d, std::vector<cl::Kernel>& kernels, int w
                                      cl::NDRange(work_group_size));
     }
     d.queue.finish();
+}
+
+/// After `beside`, which may be compiling the same, has ended.
+Compiled compile(const RenderDevice& d, const Wanted& w, int work_group_size,
+                 std::optional<ChildProcess> beside) {
+    auto start = Clock::now();
+    if (w.opened) return {d.programs.at(w.key), true};
+    std::uint64_t beside_bytes = beside ? beside->wait().peak_bytes : 0;
+    Program program(d.context, d.device, d.device.keeps_programs ? ProgramCache({}) : d.cache,
+                    w.source);
+    launch_empty(d, w, program, work_group_size);
+    return {program, w.kept || program.from_cache(), seconds_since(start), beside_bytes};
+}
+
+/// Compiles the last program in another process, where another is to be compiled here: PoCL
+/// compiles one program at a time in a process.
+std::optional<ChildProcess> start_beside(const RenderDevice& d, const std::vector<Wanted>& programs,
+                                         const StageOptions& options) {
+    auto unknown = [](const Wanted& w) { return !w.opened && !w.kept; };
+    if (!d.compile_beside || !d.device.keeps_programs || !unknown(programs.back()) ||
+        std::count_if(programs.begin(), programs.end(), unknown) < 2)
+        return std::nullopt;
+    return d.compile_beside(programs.back().group, options);
+}
+
+void keep(const RenderDevice& d, const Wanted& w, const Compiled& compiled) {
+    if (compiled.cached) return;
+    if (d.device.keeps_programs)
+        d.cache.store(w.key, {});
+    else
+        compiled.program.store(d.cache);
 }
 
 StageReport stage_report(std::size_t stage, const StageOptions& options, const Compiled& compiled) {
@@ -77,36 +120,42 @@ StageReport stage_report(std::size_t stage, const StageOptions& options, const C
 } // namespace
 
 StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
-    StagePrograms result;
+    std::vector<Wanted> programs;
+    programs.reserve(program_groups.size());
+    for (ProgramGroup group : program_groups)
+        programs.push_back(wanted(d, group, options));
+    std::optional<ChildProcess> beside = start_beside(d, programs, options);
     std::vector<std::future<Compiled>> jobs;
-    for (ProgramGroup group : program_groups) {
-        ProgramSource source = group_source(group, options);
-        result.keys.push_back(program_key(d.device, source, options.work_group_size));
-        jobs.push_back(std::async(std::launch::async, compile_group, std::cref(d), source,
-                                  result.keys.back()));
-    }
+    jobs.reserve(programs.size());
+    for (const Wanted& w : programs)
+        jobs.push_back(std::async(
+            std::launch::async, compile, std::cref(d), std::cref(w), options.work_group_size,
+            &w == &programs.back() ? std::exchange(beside, {}) : std::nullopt));
     std::vector<Compiled> compiled;
     compiled.reserve(jobs.size());
     for (auto& job : jobs)
         compiled.push_back(job.get());
+    StagePrograms result;
+    for (std::size_t g = 0; g < compiled.size(); g++) {
+        keep(d, programs[g], compiled[g]);
+        d.programs.emplace(programs[g].key, compiled[g].program);
+        result.beside_peak_bytes =
+            std::max(result.beside_peak_bytes, compiled[g].beside_peak_bytes);
+    }
     for (std::size_t i = 0; i < stage_count; i++) {
         const Compiled& c = compiled[static_cast<std::size_t>(stage_groups[i])];
         result.kernels.push_back(c.program.kernel(stage_names[i]));
         result.reports.push_back(stage_report(i, options, c));
     }
-    bool first_use = false;
-    for (std::size_t g = 0; g < compiled.size(); g++)
-        first_use |= d.programs.emplace(result.keys[g], compiled[g].program).second;
-    if (first_use) launch_empty(d, result.kernels, options.work_group_size);
-    for (std::size_t g = 0; g < compiled.size(); g++)
-        if (d.device.keeps_programs && !compiled[g].cached) d.cache.store(result.keys[g], {});
     return result;
 }
 
-void store_programs(const RenderDevice& d, const StagePrograms& stages) {
-    if (d.device.keeps_programs) return;
-    for (const std::string& key : stages.keys)
-        d.programs.at(key).store(d.cache);
+bool compile_program(RenderDevice& d, ProgramGroup group, const StageOptions& options) {
+    Wanted w = wanted(d, group, options);
+    Compiled compiled = compile(d, w, options.work_group_size, std::nullopt);
+    keep(d, w, compiled);
+    d.programs.emplace(w.key, compiled.program);
+    return compiled.cached;
 }
 
 } // namespace parhelion

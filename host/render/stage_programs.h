@@ -9,24 +9,18 @@
 
 namespace parhelion {
 
-struct StageOptions {
-    int lanes = 1;
-    bool portable = false;
-    std::uint64_t features = 0;
-    int work_group_size = 1;
-};
-
 struct StagePrograms {
-    std::vector<cl::Kernel> kernels;  ///< one for each Stage
-    std::vector<StageReport> reports; ///< likewise
-    std::vector<std::string> keys;    ///< of their programs, one for each ProgramGroup
+    std::vector<cl::Kernel> kernels;     ///< one for each Stage
+    std::vector<StageReport> reports;    ///< likewise
+    std::uint64_t beside_peak_bytes = 0; ///< of the process that compiled one of them; 0: none did
 };
 
-/// Compiles to the end: no launch compiles anything afterwards. Throws DeviceError with the
-/// compiler's log.
+/// Compiles to the end: no launch compiles anything afterwards. Where two programs are unknown, the
+/// last is compiled beside. Throws DeviceError with the compiler's log.
 StagePrograms compile_stages(RenderDevice& device, const StageOptions& options);
 
-/// Keeps freshly compiled programs for the next run, where the driver does not by itself.
-void store_programs(const RenderDevice& device, const StagePrograms& stages);
+/// Compiles one program to the end and keeps it for the next run; whether it was there already.
+/// Throws DeviceError.
+bool compile_program(RenderDevice& device, ProgramGroup group, const StageOptions& options);
 
 } // namespace parhelion

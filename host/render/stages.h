@@ -11,17 +11,20 @@ namespace parhelion {
 
 // name of the kernel and of its file, program it is compiled in
 #define STAGES(X)                                                                                  \
-    X(generate, tracing)                                                                           \
+    X(generate, shading)                                                                           \
     X(intersect, tracing) X(shade, shading) X(shadow, tracing) X(accumulate, tracing)
 
 // Compiling has a cost for each program beside that of its kernels, and two can be compiled at
-// once: what changes with every scene's materials is one, the rest the other.
+// once: those that walk the BVH are one, what changes with every scene's materials is the other.
+// Generate and accumulate are where both then take equally long (the Cornell box).
 #define PROGRAM_GROUPS(X) X(tracing) X(shading)
 
 #define GROUP_ENUM(name) name,
 enum class ProgramGroup { PROGRAM_GROUPS(GROUP_ENUM) };
 #define GROUP_VALUE(name) ProgramGroup::name,
 inline constexpr std::array program_groups{PROGRAM_GROUPS(GROUP_VALUE)};
+#define GROUP_NAME(name) #name,
+inline constexpr std::array program_group_names{PROGRAM_GROUPS(GROUP_NAME)};
 
 #define STAGE_ENUM(name, group) name,
 enum class Stage { STAGES(STAGE_ENUM) };
@@ -30,6 +33,14 @@ inline constexpr std::array stage_names{STAGES(STAGE_NAME)};
 #define STAGE_GROUP(name, group) ProgramGroup::group,
 inline constexpr std::array stage_groups{STAGES(STAGE_GROUP)};
 inline constexpr std::size_t stage_count = stage_names.size();
+
+/// What programs are compiled for.
+struct StageOptions {
+    int lanes = 1;
+    bool portable = false;
+    std::uint64_t features = 0;
+    int work_group_size = 1;
+};
 
 /// The part of a feature mask that can change the stage's program; the rest would only make more
 /// programs of the same content.

@@ -73,12 +73,13 @@ Result compute(const fs::path& folder) {
     return r;
 }
 
-std::vector<float> rendered() {
+std::vector<float> rendered(const CompileBeside& beside = {}) {
     Scene scene = every_kind_scene();
     scene.film.width = scene.film.crop_width = 16, scene.film.height = scene.film.crop_height = 12;
     scene.sampler.samples_per_pixel = 2;
     Progress quiet(Progress::Mode::quiet);
     RenderDevice device(choose_device(""));
+    device.compile_beside = beside;
     RenderResult result = render(scene, device, {}, quiet);
     return find_channel(result.image, "R")->values;
 }
@@ -160,4 +161,32 @@ TEST_CASE("A render is the same with a fresh, a warm and a damaged program cache
     CHECK(rendered() == fresh);
     CacheFolder::use(cache.files().front() / "below");
     CHECK(rendered() == fresh);
+}
+
+TEST_CASE("A render is the same whatever becomes of the process that compiles beside it",
+          "[device]") {
+    std::vector<float> alone = [] {
+        CacheFolder cache;
+        return rendered();
+    }();
+    bool keeps = choose_device("").keeps_programs;
+    const std::optional<std::vector<std::string>> commands[] = {
+        std::nullopt, // cannot be started
+        std::vector<std::string>{"/bin/false"},
+        std::vector<std::string>{"/bin/sh", "-c", "kill -KILL $$"},
+        std::vector<std::string>{"/bin/true"}, // says it has, and has not
+    };
+    for (const auto& command : commands) {
+        CAPTURE(command ? command->front() : "none");
+        CacheFolder cache;
+        int asked = 0;
+        CompileBeside beside = [&](ProgramGroup, const StageOptions&) {
+            asked++;
+            return command ? ChildProcess::start(*command) : std::nullopt;
+        };
+        CHECK(rendered(beside) == alone);
+        CHECK(asked == (keeps ? 1 : 0));
+        CHECK(rendered(beside) == alone); // both programs are known now
+        CHECK(asked == (keeps ? 1 : 0));
+    }
 }

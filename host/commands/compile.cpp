@@ -1,0 +1,127 @@
+// `parhelion compile`: kernels compiled ahead of a render, or beside one.
+#include "host/commands/compile.h"
+
+#include "host/commands/render.h"
+#include "host/error.h"
+#include "host/render/device_scene.h"
+#include "host/render/scene_features.h"
+#include "host/render/stage_programs.h"
+#include "host/scene/load.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace parhelion {
+namespace {
+
+struct CompileCommand {
+    RenderCommand image; ///< of the image that the kernels are for
+    std::vector<std::string> features;
+    std::string program; ///< empty: all
+};
+
+constexpr const char* no_feature = "none";
+
+std::uint64_t wanted_features(const CompileCommand& c) {
+    if (c.image.scene_file.empty() == c.features.empty())
+        throw InputError("compile: needs a scene or --features, and not both");
+    if (!c.features.empty()) return c.features.front() == no_feature ? 0 : feature_mask(c.features);
+    Scene scene = load_scene(c.image.scene_file,
+                             {parse_definitions(c.image.definitions), c.image.allow_outside});
+    apply_overrides(c.image, scene);
+    return render_features(make_device_scene(scene), c.image.options);
+}
+
+std::vector<ProgramGroup> wanted_programs(const std::string& name) {
+    if (name.empty()) return {program_groups.begin(), program_groups.end()};
+    auto found = std::find(program_group_names.begin(), program_group_names.end(), name);
+    if (found == program_group_names.end())
+        throw InputError(
+            fmt::format("--program {}: there are {}", name, fmt::join(program_group_names, ", ")));
+    return {program_groups[found - program_group_names.begin()]};
+}
+
+int run_compile(const CompileCommand& c) {
+    check_split(c.image.options);
+    Progress progress = Progress::standard(c.image.quiet);
+    std::vector<ProgramGroup> programs = wanted_programs(c.program);
+    progress.start("loading " + c.image.scene_file);
+    StageOptions options{.portable = c.image.options.portable,
+                         .features = wanted_features(c),
+                         .work_group_size = c.image.options.split.work_group_size};
+    progress.finish(fmt::format("{}", fmt::join(feature_names(options.features), " ")));
+    RenderDevice& device = open_to_the_end(choose_device(c.image.device));
+    options.lanes = c.image.options.lanes > 0 ? c.image.options.lanes : device.device.lanes();
+    progress.start("compiling kernels");
+    bool cached = true;
+    if (programs.size() == 1) {
+        cached = compile_program(device, programs.front(), options);
+    } else {
+        device.compile_beside = compile_in_own_process(device.device);
+        for (const StageReport& stage : compile_stages(device, options).reports)
+            cached = cached && stage.cached;
+    }
+    progress.finish(cached ? "cached" : "compiled");
+    return static_cast<int>(ExitCode::ok);
+}
+
+/// The command line of run_compile for one program.
+std::vector<std::string> own_command(const Device& device, ProgramGroup group,
+                                     const StageOptions& options) {
+    std::vector<std::string> features = feature_names(options.features);
+    if (features.empty()) features = {no_feature};
+    std::vector<std::string> command{
+        "/proc/self/exe",    "compile",
+        "--quiet", // this program, wherever it now is
+        "--program",         program_group_names[static_cast<std::size_t>(group)],
+        "--features",        fmt::format("{}", fmt::join(features, ",")),
+        "--device",          std::to_string(device.index),
+        "--lanes",           std::to_string(options.lanes),
+        "--work-group-size", std::to_string(options.work_group_size)};
+    if (options.portable) command.emplace_back("--portable");
+    return command;
+}
+
+} // namespace
+
+CompileBeside compile_in_own_process(const Device& device) {
+    using tbb::global_control;
+    if (global_control::active_value(global_control::max_allowed_parallelism) < 2) return {};
+    return [device](ProgramGroup group, const StageOptions& options) {
+        return ChildProcess::start(own_command(device, group, options));
+    };
+}
+
+Subcommand compile_subcommand() {
+    auto c = std::make_shared<CompileCommand>();
+    RenderCommand& image = c->image;
+    Subcommand compile{
+        .name = "compile",
+        .summary = "Compile a scene's kernels, so that renders find them ready",
+        .examples =
+            "Examples:\n"
+            "  parhelion compile scenes/cornell-box/scene.xml\n"
+            "  parhelion compile scene.xml --aov albedo --integrator direct   # as it will be "
+            "rendered\n"
+            "  parhelion compile --features \"$(parhelion info scene.xml --json | "
+            "jq -r '.kernel_features | join(\",\")')\"",
+        .options = {{"scene", &image.scene_file, "Scene file (Mitsuba 3 XML)"},
+                    {"--features",
+                     &c->features,
+                     "Features of the kernels, instead of a scene's (see `parhelion info`)",
+                     {.delimiter = ','}},
+                    {"--program", &c->program,
+                     fmt::format("Only this one of the programs {}",
+                                 fmt::join(program_group_names, ", "))}},
+        .run = [c] { return run_compile(*c); },
+    };
+    for (const Option& option : kernel_options(image))
+        compile.options.push_back(option);
+    return compile;
+}
+
+} // namespace parhelion
