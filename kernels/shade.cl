@@ -169,6 +169,7 @@ kernel void shade(KERNEL_PARAMETERS) {
         }
 
         Int excluded = sel(primitive_kind(primitive) == geometry_sphere, (Int)(-1), v.primitive);
+        vec3 clearance = surface_clearance(surface.error, surface.ng);
         Uint bounce = (Uint)(uint)(dimension_first_bounce + depth * dimensions_per_bounce);
         Uint seed = (Uint)(uint)params.seed;
 
@@ -196,8 +197,9 @@ kernel void shade(KERNEL_PARAMETERS) {
             Mask lit = reached & (max_component(contribution) > R(0.));
             uint bits = maskBits(lit);
             if (bits) {
-                vec3 origin = leave_surface(surface.p, surface.error, surface.ng, e.wi);
-                vec3 target = leave_surface(e.q, e.q_error, e.q_normal, neg3(e.wi));
+                vec3 origin = leave_surface(surface.p, clearance, surface.ng, e.wi);
+                vec3 target = leave_surface(e.q, surface_clearance(e.q_error, e.q_normal),
+                                            e.q_normal, neg3(e.wi));
                 vec3 to_light = sel3(e.distant, e.wi, sub3(target, origin));
                 int to = next_shadow;
                 SHADOW_PACK_REAL(ox, origin.x);
@@ -235,7 +237,7 @@ kernel void shade(KERNEL_PARAMETERS) {
                 vec3 wi = b.wi;
                 wi.z = wi.z * side;
                 vec3 direction = to_world(frame, wi);
-                vec3 origin = leave_surface(surface.p, surface.error, surface.ng, direction);
+                vec3 origin = leave_surface(surface.p, clearance, surface.ng, direction);
                 int to = next_path;
                 PATH_PACK_REAL(ox, origin.x);
                 PATH_PACK_REAL(oy, origin.y);

@@ -64,13 +64,14 @@ NextRays next_rays(const TriangleScene& scene, std::span<const PrimitiveRecord> 
             f32::random4(static_cast<f32::Uint>(i), 0, static_cast<f32::Uint>(depth), 1);
         vec3 wi = f32::to_world(f32::frame_from_normal(n),
                                 f32::hemisphere_cosine(f32::uniform2(u.x, u.y)));
-        vec3 origin = f32::leave_surface(s.p, s.error, s.ng, wi);
+        vec3 origin = f32::leave_surface(s.p, f32::surface_clearance(s.error, s.ng), s.ng, wi);
         next.bounce.push_back(
             make_ray(origin, wi, std::numeric_limits<float>::infinity(), hit.primitive));
         vec3 light = f32::add3(vector(scene.light_corner),
                                f32::add3(f32::scale3(vector(scene.light_u), f32::uniform01(u.z)),
                                          f32::scale3(vector(scene.light_v), f32::uniform01(u.w))));
-        vec3 leaving = f32::leave_surface(s.p, s.error, s.ng, f32::sub3(light, s.p));
+        vec3 leaving = f32::leave_surface(s.p, f32::surface_clearance(s.error, s.ng), s.ng,
+                                          f32::sub3(light, s.p));
         next.shadow.push_back(make_ray(leaving, f32::sub3(light, leaving), 1.f, hit.primitive));
     }
     return next;

@@ -9,12 +9,12 @@ typedef struct {
     Real solid_angle;
 } SphericalParallelogram;
 
-/// As seen from p; of solid angle 0 where that is not asked for.
+/// As seen from p; of solid angle 0 where that is not asked for, and from behind.
 FN SphericalParallelogram emitter_area_parallelogram_seen(Light l, vec3 p) {
     vec3 a = sub3(light_a(l), p), b = sub3(light_b(l), p), c = sub3(light_c(l), p);
     vec3 e2 = sub3(light_c(l), light_a(l));
     vec3 n = cross3(sub3(light_b(l), light_a(l)), e2);
-    Mask near = near_for_solid_angle(scale3(add3(b, c), R(.5)), dot3(n, n));
+    Mask near = near_for_solid_angle(scale3(add3(b, c), R(.5)), dot3(n, n)) & (dot3(a, n) < R(0.));
     SphericalParallelogram seen;
     seen.first.start = n;
     seen.first.apex = n;

@@ -1,11 +1,12 @@
 // A triangle that emits from the side its winding faces: corners a, b, c. Chosen uniformly by solid
 // angle, or by area where it is seen too small for that (solid_angle.h).
 
-/// As seen from p; of solid angle 0 where that is not asked for.
+/// As seen from p; of solid angle 0 where that is not asked for, and from behind.
 FN SphericalTriangle emitter_area_triangle_seen(Light l, vec3 p) {
     vec3 a = sub3(light_a(l), p), b = sub3(light_b(l), p), c = sub3(light_c(l), p);
     vec3 n = cross3(sub3(light_b(l), light_a(l)), sub3(light_c(l), light_a(l)));
-    Mask near = near_for_solid_angle(scale3(add3(a, add3(b, c)), R(1. / 3.)), .25f * dot3(n, n));
+    Mask near = near_for_solid_angle(scale3(add3(a, add3(b, c)), R(1. / 3.)), .25f * dot3(n, n)) &
+                (dot3(a, n) < R(0.));
     SphericalTriangle seen;
     seen.start = n;
     seen.apex = n;

@@ -205,7 +205,16 @@ FN Real nextUp(Real x) {
     return sel(x == R(0.), asReal((Int)1), up);
 }
 FN Real nextDown(Real x) { return -nextUp(-x); }
+/// The neighbour of x on the side of `way`'s sign; x itself where `way` is zero.
+FN Real nextAlong(Real x, Real way) {
+    Int step = ((asInt(x) ^ asInt(way)) >> 31) | 1; // in magnitude
+    Real next = sel(x == R(0.), copysignR(asReal((Int)1), way), asReal(asInt(x) + step));
+    return sel((way > R(0.)) | (way < R(0.)), next, x);
+}
 #else
 FN Real nextUp(Real x) { return std::nextafter(x, LANE_INFINITY); }
 FN Real nextDown(Real x) { return std::nextafter(x, -LANE_INFINITY); }
+FN Real nextAlong(Real x, Real way) {
+    return sel(way > R(0.), nextUp(x), sel(way < R(0.), nextDown(x), x));
+}
 #endif

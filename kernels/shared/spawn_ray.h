@@ -4,14 +4,14 @@
 #define HALF_ULP 5.9604644775390625e-8f
 #define GAMMA(n) ((Real)((n)*HALF_ULP / (1.f - (n)*HALF_ULP)))
 
-/// A point of the surface moved off it to the side that w points to, by no more than the rounding
-/// error of the point itself (error: absolute bounds a coordinate), then on to the next float
-/// (Pharr, Jakob and Humphreys 2016, section 3.9.5).
-FN vec3 leave_surface(vec3 p, vec3 error, vec3 n, vec3 w) {
-    Real distance = dot3(abs3(n), error);
-    vec3 offset = scale3(n, copysignR(distance, dot3(w, n)));
+/// How far a ray must stand off a surface of the normal n for the rounding error of its origin
+/// (absolute bounds a coordinate; Pharr, Jakob and Humphreys 2016, section 3.9.5).
+FN vec3 surface_clearance(vec3 error, vec3 n) { return scale3(n, dot3(abs3(n), error)); }
+
+/// A point of the surface moved off it to the side that w points to, by its clearance, then on to
+/// the next float.
+FN vec3 leave_surface(vec3 p, vec3 clearance, vec3 n, vec3 w) {
+    vec3 offset = scale3(clearance, copysignR(R(1.), dot3(w, n)));
     vec3 q = add3(p, offset);
-    return v3(sel(offset.x > R(0.), nextUp(q.x), sel(offset.x < R(0.), nextDown(q.x), q.x)),
-              sel(offset.y > R(0.), nextUp(q.y), sel(offset.y < R(0.), nextDown(q.y), q.y)),
-              sel(offset.z > R(0.), nextUp(q.z), sel(offset.z < R(0.), nextDown(q.z), q.z)));
+    return v3(nextAlong(q.x, offset.x), nextAlong(q.y, offset.y), nextAlong(q.z, offset.z));
 }

@@ -43,7 +43,7 @@ TEST_CASE("Leaving a triangle: always on the side of the plane that the ray goes
         f32::vec2 b = f32::triangle_uniform(random.square<F32>());
         f32::SurfaceInteraction s = f32::surface_triangle(triangle_primitive(v), b.x, b.y);
         f32::vec3 w = random.direction<F32>();
-        f32::vec3 q = f32::leave_surface(s.p, s.error, s.ng, w);
+        f32::vec3 q = f32::leave_surface(s.p, f32::surface_clearance(s.error, s.ng), s.ng, w);
         double side = f32::dot3(w, s.ng) > 0 ? 1 : -1;
         tested++;
         wrong += !(dot128(f64::sub3(wide(q), a), normal) * side > 0);
@@ -71,7 +71,7 @@ TEST_CASE("Leaving a sphere or a disk: always on the side that the ray goes to",
         f64::vec3 on = f64::add3(wide(centre), f64::scale3(random.direction<F64>(),
                                                            size * random.between(0.9999, 1.0001)));
         f32::SurfaceInteraction s = f32::surface_sphere(p, vec_as<F32>(on));
-        f32::vec3 q = f32::leave_surface(s.p, s.error, s.ng, w);
+        f32::vec3 q = f32::leave_surface(s.p, f32::surface_clearance(s.error, s.ng), s.ng, w);
         f64::vec3 from_centre = f64::sub3(wide(q), wide(centre));
         __float128 beyond = dot128(from_centre, from_centre) - (__float128)p.radius * p.radius;
         bool outward = f32::dot3(w, s.ng) > 0;
@@ -82,7 +82,7 @@ TEST_CASE("Leaving a sphere or a disk: always on the side that the ray goes to",
         p.bx = u.x, p.by = u.y, p.bz = u.z, p.cx = v.x, p.cy = v.y, p.cz = v.z;
         f32::vec2 at = f32::disk_uniform(random.square<F32>());
         s = f32::surface_disk(p, at.x, at.y);
-        q = f32::leave_surface(s.p, s.error, s.ng, w);
+        q = f32::leave_surface(s.p, f32::surface_clearance(s.error, s.ng), s.ng, w);
         f64::vec3 normal = f64::cross3(wide(u), wide(v));
         double side = f32::dot3(w, s.ng) > 0 ? 1 : -1;
         wrong_disk += !(dot128(f64::sub3(wide(q), wide(centre)), normal) * side > 0);

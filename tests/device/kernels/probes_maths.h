@@ -10,7 +10,12 @@ FN ProbeOut probe_vectors(ProbeIn i) {
     o = put1(put1(o, 7, difference_of_products(a.x, a.y, b.x, b.y)), 8, mask_word(finite3(a)));
     return put1(put1(o, 9, copysignR(a.x, b.x)), 10, absR(a.x));
 }
-FN ProbeOut probe_neighbours(ProbeIn i) { return out2(v2(nextUp(i.w[0]), nextDown(i.w[0]))); }
+FN ProbeOut probe_neighbours(ProbeIn i) {
+    Real x = i.w[0], way = i.w[1];
+    ProbeOut o = out3(v3(nextUp(x), nextDown(x), nextAlong(x, way)));
+    // From zero, and along nothing.
+    return put3(o, 3, v3(nextAlong(R(0.), way), nextAlong(R(-0.), way), nextAlong(x, way * R(0.))));
+}
 FN ProbeOut probe_sincos_turns(ProbeIn i) {
     SinCos s = sincos_turns(i.w[0]);
     return out2(v2(s.sine, s.cosine));
@@ -98,7 +103,7 @@ FN ProbeOut probe_russian_roulette(ProbeIn i) {
 #define PROBES                                                                                     \
     PROBE(cross3, "rrrrrr", 3)                                                                     \
     PROBE(vectors, "rrrrrr", 11)                                                                   \
-    PROBE(neighbours, "f", 2)                                                                      \
+    PROBE(neighbours, "ff", 6)                                                                      \
     PROBE(sincos_turns, "u", 2)                                                                    \
     PROBE(exp_negative, "s", 1) PROBE(atan2, "ff", 1) PROBE(acos, "c", 2)                          \
         PROBE(random4, "bbbb", 12) PROBE(sobol4, "bbbb", 12) PROBE(disk_uniform, "uu", 2) PROBE(hemisphere_cosine, "uu", 3)  \

@@ -45,8 +45,8 @@ FN ProbeOut probe_ray_slab(ProbeIn i) {
     return put2(out1(s.inverse), 1, v2(s.near_offset, s.far_offset));
 }
 FN ProbeOut probe_leave_surface(ProbeIn i) {
-    return out3(
-        leave_surface(in3(i, 0), abs3(scale3(in3(i, 3), GAMMA(7.f))), in3(i, 6), in3(i, 9)));
+    vec3 error = abs3(scale3(in3(i, 3), GAMMA(7.f))), n = in3(i, 6);
+    return out3(leave_surface(in3(i, 0), surface_clearance(error, n), n, in3(i, 9)));
 }
 FN ProbeOut out_surface(SurfaceInteraction s) {
     ProbeOut o = put3(put3(put3(no_output(), 0, s.p), 3, s.error), 6, s.ng);
