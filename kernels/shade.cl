@@ -74,15 +74,19 @@ FN vec3 surface_emission(PathVertex v, Primitive p, SurfaceInteraction s,
     Mask emits = v.hit & (p.light >= 0);
     vec3 emitted = splat3(R(0.));
     if (someLane(emits)) {
-        Int row = sel(emits, p.light, (Int)0);
+        Int row = (Int)0;
+        if (HAS(light_tree)) row = sel(emits, p.light, row);
         Light light = load_Light(lights, row);
+        // Next event estimation has no part in what the camera or a mirror sees.
+        Mask weighted = emits & finiteR(v.pdf);
         if (HAS(next_event))
-            light = light_picked_with(
-                light, light_pmf(nodes, leaves, v.origin, row, emits & finiteR(v.pdf)));
-        EmitterHit e = emitter_hit(light, v.origin, v.direction, s.p);
-        Real weight = R(1.);
-        if (HAS(next_event)) weight = power_heuristic(v.pdf, e.pdf);
-        emitted = sel3(emits, scale3(e.radiance, weight), emitted);
+            light = light_picked_with(light, light_pmf(nodes, leaves, v.origin, row, weighted));
+        else
+            weighted = emits & !emits;
+        EmitterHit e = emitter_hit(light, v.origin, v.direction, s.p, weighted);
+        emitted = sel3(emits, e.radiance, emitted);
+        if (someLane(weighted))
+            emitted = scale3(emitted, sel(weighted, power_heuristic(v.pdf, e.pdf), R(1.)));
     }
     return emitted;
 }
@@ -189,9 +193,10 @@ kernel void shade(KERNEL_PARAMETERS) {
             Real weight = R(1.);
             if (HAS(emission) && HAS(scattering)) {
                 // A ray that meets the light does not know how this surface lies.
-                Real hint = e.pdf;
-                if (HAS(light_tree)) hint = e.pdf * (pick.pmf_hint / sel(reached, pick.pmf, R(1.)));
-                weight = power_heuristic(hint, f.pdf);
+                Real inverse_hint = e.inverse_pdf;
+                if (HAS(light_tree))
+                    inverse_hint = e.inverse_pdf * (pick.pmf / sel(reached, pick.pmf_hint, R(1.)));
+                weight = power_heuristic_inverse(inverse_hint, f.pdf);
             }
             vec3 contribution = scale3(mul3(mul3(v.throughput, f.f), e.weight), weight);
             Mask lit = reached & (max_component(contribution) > R(0.));

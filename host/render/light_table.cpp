@@ -74,7 +74,9 @@ Row corners_row(EmitterKind kind, const std::array<glm::dvec3, 3>& corners, bool
     set_a(row.light, a);
     set_b(row.light, swap ? c : b);
     set_c(row.light, swap ? b : c);
-    row.area = area * 0.5 * glm::length(glm::cross(b - a, c - a));
+    double length = glm::length(glm::cross(b - a, c - a));
+    row.area = area * 0.5 * length;
+    row.light.extra = static_cast<float>(1.0 / length);
     return row;
 }
 
@@ -114,8 +116,8 @@ Row primitive_row(const DeviceScene& scene, int index, bool pair, const Rgb& rad
         set_a(row.light, point_a(p));
         set_b(row.light, point_b(p));
         set_c(row.light, point_c(p));
-        row.light.extra = side;
         row.area = pi * glm::length(glm::cross(point_b(p), point_c(p)));
+        row.light.extra = static_cast<float>(side * pi / row.area);
         break;
     default:
         row =
@@ -218,7 +220,7 @@ void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
         Row& row = rows[i];
         double pmf = row.power / total;
         row.light.pmf = static_cast<float>(pmf);
-        row.light.density = row.area > 0.0 ? static_cast<float>(pmf / row.area) : 0.0f;
+        row.light.area = static_cast<float>(row.area);
         for (int k = 0; row.first_primitive >= 0 && k < row.primitive_count; k++)
             out.primitives[row.first_primitive + k].light = static_cast<int>(i);
         if (row.light.kind == emitter_constant) out.constant_light = static_cast<int>(i);

@@ -60,12 +60,9 @@ FN LightPick pick_light(global const LightNodeRecord* nodes, vec3 p, vec3 n, Mas
     return pick;
 }
 
-/// The light with the densities that belong to a pick of its row with probability pmf.
+/// The light with the probability of its pick.
 FN Light light_picked_with(Light light, Real pmf) {
-    if (HAS(light_tree)) {
-        light.density = light.density / light.pmf * pmf;
-        light.pmf = pmf;
-    }
+    if (HAS(light_tree)) light.pmf = pmf;
     return light;
 }
 

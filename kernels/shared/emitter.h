@@ -5,7 +5,7 @@ FN EmitterSample sel_emitter(Mask m, EmitterSample a, EmitterSample b) {
     EmitterSample s;
     s.wi = sel3(m, a.wi, b.wi);
     s.weight = sel3(m, a.weight, b.weight);
-    s.pdf = sel(m, a.pdf, b.pdf);
+    s.inverse_pdf = sel(m, a.inverse_pdf, b.inverse_pdf);
     s.q = sel3(m, a.q, b.q);
     s.q_error = sel3(m, a.q_error, b.q_error);
     s.q_normal = sel3(m, a.q_normal, b.q_normal);
@@ -26,11 +26,11 @@ FN EmitterSample emitter_sample(Light l, vec3 p, vec2 u) {
 
 typedef struct {
     vec3 radiance; // along -wi; 0 from the dark side
-    Real pdf;      // with which emitter_sample would have chosen wi
+    Real pdf;      // with which emitter_sample would have chosen wi; 0 where that is not asked for
 } EmitterHit;
 
-/// What a ray from p along wi sees of the light it hit at q.
-FN EmitterHit emitter_hit(Light l, vec3 p, vec3 wi, vec3 q) {
+/// What a ray from p along wi sees of the light it hit at q; `weighted` lanes ask for the density.
+FN EmitterHit emitter_hit(Light l, vec3 p, vec3 wi, vec3 q, Mask weighted) {
     EmitterHit hit;
     hit.radiance = splat3(R(0.));
     hit.pdf = R(0.);
@@ -40,7 +40,8 @@ FN EmitterHit emitter_hit(Light l, vec3 p, vec3 wi, vec3 q) {
         if (someLane(mine)) {                                                                      \
             Mask bright = mine & emitter_##name##_faces(l, wi, q);                                 \
             hit.radiance = sel3(bright, light_radiance(l), hit.radiance);                          \
-            hit.pdf = sel(bright, emitter_##name##_pdf(l, p, wi, q), hit.pdf);                     \
+            if (someLane(bright & weighted))                                                       \
+                hit.pdf = sel(bright & weighted, emitter_##name##_pdf(l, p, wi, q), hit.pdf);      \
         }                                                                                          \
     }
     EMITTERS(EMITTER_HIT_CASE)
@@ -53,4 +54,10 @@ FN Real power_heuristic(Real own, Real other) {
     Mask all = !finiteR(own) | (other == R(0.));
     Real ratio = other / sel(all, R(1.), own);
     return sel(all, R(1.), R(1.) / (R(1.) + ratio * ratio));
+}
+
+/// The same of 1 / own.
+FN Real power_heuristic_inverse(Real inverse_own, Real other) {
+    Real ratio = other * inverse_own;
+    return R(1.) / (R(1.) + ratio * ratio);
 }

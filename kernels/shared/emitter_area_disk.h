@@ -1,8 +1,8 @@
-// A disk that emits from one side: centre a, edges b and c, `extra` +-1 the side of cross(b, c);
-// chosen uniformly by area.
+// A disk that emits from one side: centre a, edges b and c, `extra` +-1 / |cross(b, c)| with the
+// sign of the side; chosen uniformly by area.
 
 FN vec3 emitter_area_disk_normal(Light l) {
-    return scale3(normalize3(cross3(light_b(l), light_c(l))), l.extra);
+    return scale3(cross3(light_b(l), light_c(l)), l.extra);
 }
 
 FN EmitterSample emitter_area_disk_sample(Light l, vec3 p, vec2 u) {

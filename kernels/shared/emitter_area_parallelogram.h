@@ -1,6 +1,6 @@
 // A parallelogram that emits from the side cross(b - a, c - a) points to: corners a, b, c, and
-// b + c - a across from a. Chosen uniformly by solid angle, or by area where it is seen too small
-// for that (solid_angle.h).
+// b + c - a across from a; `extra` is 1 / |cross(b - a, c - a)|. Chosen uniformly by solid angle,
+// or by area where it is seen too small for that (solid_angle.h).
 
 /// Two halves on either side of the diagonal from a. The first random number runs through the
 /// first half and on through the second, so that what is evenly spread stays so.

@@ -25,10 +25,6 @@ FN SphereCone emitter_area_sphere_cone(Light l, vec3 p) {
     return c;
 }
 
-FN Real emitter_area_sphere_cone_pdf(Light l, SphereCone c) {
-    return l.pmf * R(INV_TWO_PI) / c.one_minus_cosine;
-}
-
 FN EmitterSample emitter_area_sphere_sample(Light l, vec3 p, vec2 u) {
     SphereCone cone = emitter_area_sphere_cone(l, p);
     vec3 centre = light_a(l);
@@ -54,17 +50,17 @@ FN EmitterSample emitter_area_sphere_sample(Light l, vec3 p, vec2 u) {
     vec3 q = add3(centre, scale3(outward, l.bx));
     vec3 error = scale3(add3(abs3(centre), scale3(abs3(outward), l.bx)), GAMMA(7.f));
     EmitterSample by_area = emitter_area_finish(l, p, q, error, scale3(outward, l.extra));
-    Real cone_pdf = emitter_area_sphere_cone_pdf(l, cone);
-    vec3 cone_weight = scale3(light_radiance(l), sel(cone.visible, R(1.) / cone_pdf, R(0.)));
-    by_area.weight = sel3(cone.outside, cone_weight, by_area.weight);
-    by_area.pdf = sel(cone.outside, cone_pdf, by_area.pdf);
+    Real solid_angle = sel(cone.visible, R(TWO_PI) * cone.one_minus_cosine, R(0.));
+    by_area.inverse_pdf =
+        sel(cone.outside, solid_angle * light_inverse_pmf(l), by_area.inverse_pdf);
+    by_area.weight = scale3(light_radiance(l), by_area.inverse_pdf);
     return by_area;
 }
 
 FN Real emitter_area_sphere_pdf(Light l, vec3 p, vec3 wi, vec3 q) {
     SphereCone cone = emitter_area_sphere_cone(l, p);
     vec3 outward = scale3(sub3(q, light_a(l)), R(1.) / l.bx);
-    return sel(cone.outside, emitter_area_sphere_cone_pdf(l, cone),
+    return sel(cone.outside, l.pmf * R(INV_TWO_PI) / cone.one_minus_cosine,
                emitter_area_pdf(l, p, q, outward));
 }
 

@@ -1,4 +1,5 @@
-// A triangle that emits from the side its winding faces: corners a, b, c. Chosen uniformly by solid
+// A triangle that emits from the side its winding faces: corners a, b, c; `extra` is
+// 1 / |cross(b - a, c - a)|. Chosen uniformly by solid
 // angle, or by area where it is seen too small for that (solid_angle.h).
 
 /// As seen from p; of solid angle 0 where that is not asked for, and from behind.

@@ -3,9 +3,9 @@
 FN EmitterSample emitter_constant_sample(Light l, vec3 p, vec2 u) {
     EmitterSample s = emitter_sample_none();
     s.wi = sphere_uniform(u);
-    s.pdf = l.pmf * R(INV_FOUR_PI);
-    s.weight = scale3(light_radiance(l), R(1.) / s.pdf);
-    s.distant = s.pdf == s.pdf;
+    s.inverse_pdf = R(4. * PI) * light_inverse_pmf(l);
+    s.weight = scale3(light_radiance(l), s.inverse_pdf);
+    s.distant = s.inverse_pdf == s.inverse_pdf;
     return s;
 }
 

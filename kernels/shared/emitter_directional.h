@@ -4,9 +4,8 @@
 FN EmitterSample emitter_directional_sample(Light l, vec3 p, vec2 u) {
     EmitterSample s = emitter_sample_none();
     s.wi = neg3(light_b(l));
-    s.weight = scale3(light_radiance(l), R(1.) / l.pmf);
-    s.pdf = LANE_INFINITY;
-    s.distant = s.pdf == s.pdf;
+    s.weight = scale3(light_radiance(l), light_inverse_pmf(l));
+    s.distant = l.bx == l.bx;
     return s;
 }
 

@@ -6,10 +6,9 @@ FN EmitterSample emitter_point_incident(Light l, vec3 p, vec3 intensity) {
     vec3 to = sub3(light_a(l), p);
     Real distance_squared = dot3(to, to);
     Mask apart = distance_squared > R(0.);
-    Real inverse = R(1.) / sel(apart, distance_squared, R(1.));
-    s.wi = sel3(apart, scale3(to, R(1.) / sqrtR(sel(apart, distance_squared, R(1.)))), s.wi);
-    s.weight = sel3(apart, scale3(intensity, inverse / l.pmf), s.weight);
-    s.pdf = LANE_INFINITY;
+    Real inverse = R(1.) / sqrtR(sel(apart, distance_squared, R(1.)));
+    s.wi = sel3(apart, scale3(to, inverse), s.wi);
+    s.weight = sel3(apart, scale3(intensity, inverse * inverse * light_inverse_pmf(l)), s.weight);
     s.q = light_a(l);
     return s;
 }

@@ -6,55 +6,60 @@
 // point q it hits.
 
 typedef struct {
-    vec3 wi;       // unit direction to the emitter
-    vec3 weight;   // radiance / pdf; for delta emitters incident irradiance on a facing surface /
-                   // pmf; 0: nothing arrives
-    Real pdf;      // 1/sr; infinite for delta emitters
-    vec3 q;        // the point on the emitter
-    vec3 q_error;  // rounding error bound of q
-    vec3 q_normal; // unit normal there; any non-zero vector for a point without surface
-    Mask distant;  // there is no such point: the light comes from infinity
+    vec3 wi;     // unit direction to the emitter
+    vec3 weight; // radiance / pdf; for delta emitters incident irradiance on a facing surface /
+                 // pmf; 0: nothing arrives
+    Real inverse_pdf; // sr; 0 for delta emitters, and where nothing arrives
+    vec3 q;           // the point on the emitter
+    vec3 q_error;     // rounding error bound of q
+    vec3 q_normal;    // unit normal there; any non-zero vector for a point without surface
+    Mask distant;     // there is no such point: the light comes from infinity
 } EmitterSample;
 
 FN EmitterSample emitter_sample_none(void) {
     EmitterSample s;
     s.wi = v3(R(0.), R(0.), R(1.));
     s.weight = splat3(R(0.));
-    s.pdf = R(0.);
+    s.inverse_pdf = R(0.);
     s.q = splat3(R(0.));
     s.q_error = splat3(R(0.));
     s.q_normal = v3(R(0.), R(0.), R(1.));
-    s.distant = s.pdf != s.pdf;
+    s.distant = s.inverse_pdf != s.inverse_pdf;
     return s;
 }
 
 FN vec3 light_a(Light l) { return v3(l.ax, l.ay, l.az); }
 FN vec3 light_b(Light l) { return v3(l.bx, l.by, l.bz); }
 FN vec3 light_c(Light l) { return v3(l.cx, l.cy, l.cz); }
-/// Of an emitter with the corners a, b, c: the side that emits.
+/// Of an emitter with the corners a, b, c, and 1 / |cross(b - a, c - a)| in `extra`: the side that
+/// emits.
 FN vec3 light_corners_normal(Light l) {
-    return normalize3(cross3(sub3(light_b(l), light_a(l)), sub3(light_c(l), light_a(l))));
+    return scale3(cross3(sub3(light_b(l), light_a(l)), sub3(light_c(l), light_a(l))), l.extra);
 }
 FN vec3 light_radiance(Light l) { return v3(l.r, l.g, l.b); }
+/// 1 / l.pmf: a light that has no other beside it is always picked.
+FN Real light_inverse_pmf(Light l) {
+    if (!HAS(light_tree)) return R(1.);
+    return R(1.) / l.pmf;
+}
 
-/// Finishes a sample chosen uniformly by area: l.density = pmf / area, q and its normal given.
-/// One-sided.
+/// Finishes a sample chosen uniformly by area: q and its normal given. One-sided.
 FN EmitterSample emitter_area_finish(Light l, vec3 p, vec3 q, vec3 q_error, vec3 q_normal) {
     vec3 to = sub3(q, p);
     Real distance_squared = dot3(to, to);
     Mask apart = distance_squared > R(0.);
-    Real distance = sqrtR(sel(apart, distance_squared, R(1.)));
+    Real inverse = R(1.) / sqrtR(sel(apart, distance_squared, R(1.)));
     EmitterSample s;
-    s.wi = scale3(to, R(1.) / distance);
+    s.wi = scale3(to, inverse);
     Real cosine = -dot3(s.wi, q_normal);
     Mask lit = apart & (cosine > R(0.));
-    Real jacobian = sel(lit, cosine, R(1.)) / sel(lit, distance_squared, R(1.));
-    s.pdf = sel(lit, l.density / jacobian, R(0.));
-    s.weight = sel3(lit, scale3(light_radiance(l), jacobian / l.density), splat3(R(0.)));
+    Real jacobian = cosine * inverse * inverse;
+    s.inverse_pdf = sel(lit, jacobian * (l.area * light_inverse_pmf(l)), R(0.));
+    s.weight = scale3(light_radiance(l), s.inverse_pdf);
     s.q = q;
     s.q_error = q_error;
     s.q_normal = q_normal;
-    s.distant = distance != distance;
+    s.distant = inverse != inverse;
     return s;
 }
 
@@ -62,10 +67,9 @@ FN EmitterSample emitter_area_finish(Light l, vec3 p, vec3 q, vec3 q_error, vec3
 /// with that density.
 FN EmitterSample emitter_solid_angle_finish(Light l, EmitterSample s, Mask chosen,
                                             Real solid_angle) {
-    Mask lit = chosen & (s.pdf > R(0.));
-    Real pdf = l.pmf / sel(lit, solid_angle, R(1.));
-    s.pdf = sel(lit, pdf, s.pdf);
-    s.weight = sel3(lit, scale3(light_radiance(l), R(1.) / pdf), s.weight);
+    Mask lit = chosen & (s.inverse_pdf > R(0.));
+    s.inverse_pdf = sel(lit, solid_angle * light_inverse_pmf(l), s.inverse_pdf);
+    s.weight = scale3(light_radiance(l), s.inverse_pdf);
     return s;
 }
 
@@ -82,7 +86,7 @@ FN Real emitter_area_pdf(Light l, vec3 p, vec3 q, vec3 q_normal) {
     Real cosine_distance = absR(dot3(to, q_normal)); // cosine * distance
     Mask seen = cosine_distance > R(0.);
     return sel(seen,
-               l.density * distance_squared * sqrtR(distance_squared) /
-                   sel(seen, cosine_distance, R(1.)),
+               l.pmf * distance_squared * sqrtR(distance_squared) /
+                   sel(seen, l.area * cosine_distance, R(1.)),
                LANE_INFINITY);
 }

@@ -64,15 +64,15 @@ LAYOUT(VertexRecord, 64);
 typedef struct { MATERIAL_FIELDS(FIELD_DECLARE) } MaterialRecord;
 LAYOUT(MaterialRecord, 64);
 
-// a, b, c as the emitter's own header says; pmf: probability of picking this row, its share of the power where there is a
-// light tree; density: pmf / area (1/m^2).
+// a, b, c and extra as the emitter's own header says; pmf: probability of picking this row, its share of the power where
+// there is a light tree; area (m^2) of what is chosen by area.
 #define LIGHT_FIELDS(X)                                                                            \
     X(int, kind)                                                                                   \
     X(float, ax) X(float, ay) X(float, az)                                                         \
     X(float, bx) X(float, by) X(float, bz)                                                         \
     X(float, cx) X(float, cy) X(float, cz)                                                         \
     X(float, r) X(float, g) X(float, b)                                                            \
-    X(float, pmf) X(float, density) X(float, extra)
+    X(float, pmf) X(float, area) X(float, extra)
 typedef struct { LIGHT_FIELDS(FIELD_DECLARE) } LightRecord;
 LAYOUT(LightRecord, 64);
 

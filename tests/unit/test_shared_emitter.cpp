@@ -15,10 +15,20 @@ struct LightCase {
     int kind;
     double a[3], b[3], c[3];
     double area;  // 0: not chosen by area
-    double extra; // as the emitter's header says
+    double extra; // as the emitter's header says; of a disk the sign alone
     double pmf;
     double p[3]; // the point that receives light
 };
+
+/// Emitters with a plane keep the inverse length of its normal there.
+double record_extra(const LightCase& c) {
+    auto vector = [](const double(&x)[3]) { return f64::v3(x[0], x[1], x[2]); };
+    f64::vec3 a = vector(c.a), b = vector(c.b), d = vector(c.c);
+    if (c.kind == emitter_area_disk) return c.extra / f64::length3(f64::cross3(b, d));
+    if (c.kind == emitter_area_triangle || c.kind == emitter_area_parallelogram)
+        return 1 / f64::length3(f64::cross3(f64::sub3(b, a), f64::sub3(d, a)));
+    return c.extra;
+}
 
 template<class P>
 typename P::Light make_light(const LightCase& c) {
@@ -30,8 +40,8 @@ typename P::Light make_light(const LightCase& c) {
     l.cx = Real(c.c[0]), l.cy = Real(c.c[1]), l.cz = Real(c.c[2]);
     l.r = 2, l.g = 3, l.b = Real(0.5);
     l.pmf = Real(c.pmf);
-    l.density = Real(c.area > 0 ? c.pmf / c.area : 0);
-    l.extra = Real(c.extra);
+    l.area = Real(c.area);
+    l.extra = Real(record_extra(c));
     return l;
 }
 
@@ -153,7 +163,11 @@ typename P::Vec3 receiver(const LightCase& c) {
     return vec<P>(c.p[0], c.p[1], c.p[2]);
 }
 
-bool seen(const f32::EmitterSample& s) { return s.pdf > 0 && std::isfinite(s.pdf); }
+bool seen(const f32::EmitterSample& s) { return s.inverse_pdf > 0; }
+
+bool is_delta(const LightCase& c) {
+    return c.kind == emitter_point || c.kind == emitter_spot || c.kind == emitter_directional;
+}
 
 /// A grid over the cone about the emitter that holds all samples: cosine against the axis, and
 /// azimuth.
@@ -228,7 +242,7 @@ TEST_CASE("Emitters: samples follow the density that a traced ray is told", "[em
                 f64::vec3 w = grid.direction(x, y);
                 Meeting m = c.trace(l64, p64, w);
                 if (!m.hit) continue;
-                double density = emitter_hit(l64, p64, w, m.q).pdf / c.light.pmf * weight;
+                double density = emitter_hit(l64, p64, w, m.q, true).pdf / c.light.pmf * weight;
                 expected[ConeGrid::cell(i / fine, j / fine)] += density * count;
                 total += density;
             }
@@ -253,21 +267,22 @@ TEST_CASE("Emitters: what sample says, a ray that hits finds again", "[emitter]"
         for (int n = 0; n < 20000; n++) {
             auto s = emitter_sample(l, p, random.square<F32>());
             unit.add(std::fabs(f64::length3(wide(s.wi)) - 1));
-            auto hit = emitter_hit(l, p, s.wi, s.q);
-            if (std::isinf(s.pdf)) { // a delta emitter: no ray meets it
-                CHECK((hit.pdf == 0 && f32::max_component(hit.radiance) == 0));
+            auto hit = emitter_hit(l, p, s.wi, s.q, true);
+            if (is_delta(c.light)) { // no ray meets it
+                CHECK(
+                    (s.inverse_pdf == 0 && hit.pdf == 0 && f32::max_component(hit.radiance) == 0));
                 continue;
             }
             bool bright = f32::max_component(hit.radiance) > 0;
-            if (!(s.pdf > 0)) {
+            if (!seen(s)) {
                 CHECK(f32::max_component(s.weight) == 0);
                 continue;
             }
             if (!bright) FAIL(c.name << ": sampled, but dark to a ray");
-            density.add(std::fabs(double(hit.pdf) / s.pdf - 1));
+            density.add(std::fabs(double(hit.pdf) * s.inverse_pdf - 1));
             for (int k = 0; k < 3; k++)
-                weight.add(
-                    std::fabs(component(s.weight, k) * s.pdf / component(hit.radiance, k) - 1));
+                weight.add(std::fabs(
+                    component(s.weight, k) / s.inverse_pdf / component(hit.radiance, k) - 1));
         }
         INFO(c.name << " at " << c.light.p[0] << ", " << c.light.p[1] << ", " << c.light.p[2]);
         CHECK(unit.value() <= 3e-7);
@@ -288,10 +303,8 @@ TEST_CASE("Emitters: the dark side gives nothing", "[emitter]") {
         for (int n = 0; n < 1000; n++) {
             auto s = emitter_sample(make_light<F32>(c), receiver<F32>(c), random.square<F32>());
             CHECK(f32::max_component(s.weight) == 0);
-            if (s.pdf > 0)
-                CHECK(f32::max_component(
-                          emitter_hit(make_light<F32>(c), receiver<F32>(c), s.wi, s.q).radiance) ==
-                      0);
+            auto hit = emitter_hit(make_light<F32>(c), receiver<F32>(c), s.wi, s.q, true);
+            if (seen(s)) CHECK(f32::max_component(hit.radiance) == 0);
         }
 }
 
@@ -351,7 +364,7 @@ TEST_CASE("Emitters: points, spots and parallel light give their irradiance with
     point.kind = emitter_point, sun.kind = emitter_directional, spot.kind = emitter_spot;
     auto red = [](const LightCase& c) {
         auto s = emitter_sample(make_light<F32>(c), receiver<F32>(c), {0.3f, 0.6f});
-        CHECK(std::isinf(s.pdf));
+        CHECK(s.inverse_pdf == 0);
         return double(s.weight.x) * c.pmf;
     };
     CHECK(red(point) == Approx(2 / 9.0));
@@ -369,7 +382,7 @@ TEST_CASE("Emitters: points, spots and parallel light give their irradiance with
 
 TEST_CASE("Emitters: the cone of a sphere is right from its surface to a million radii away",
           "[emitter]") {
-    Worst pdf, on_sphere;
+    Worst solid_angle, on_sphere;
     Random random(85);
     for (int n = 0; n < 100000; n++) {
         LightCase c = cases_area_sphere()[0];
@@ -384,10 +397,10 @@ TEST_CASE("Emitters: the cone of a sphere is right from its surface to a million
         f32::vec2 u = random.square<F32>();
         auto s = emitter_sample(l, receiver<F32>(c), u);
         auto truth = emitter_sample(exact, receiver<F64>(c), f64::v2(u.x, u.y));
-        pdf.add(std::fabs(s.pdf / truth.pdf - 1));
+        solid_angle.add(std::fabs(s.inverse_pdf / truth.inverse_pdf - 1));
         on_sphere.add(std::fabs(f64::length3(f64::sub3(wide(s.q), light_a(exact))) - 1) / distance);
     }
-    CHECK(pdf.value() < 1e-5);
+    CHECK(solid_angle.value() < 1e-5);
     CHECK(on_sphere.value() < 1e-6);
 }
 
@@ -401,7 +414,7 @@ TEST_CASE("Emitters: at the ends of the unit interval samples are finite", "[emi
                 CHECK(f32::finite3(s.wi));
                 CHECK(f32::finite3(s.weight));
                 CHECK(f32::finite3(s.q));
-                CHECK(!std::isnan(s.pdf));
-                CHECK((s.pdf > 0 || f32::max_component(s.weight) == 0));
+                CHECK(std::isfinite(s.inverse_pdf));
+                CHECK((seen(s) || is_delta(c.light) || f32::max_component(s.weight) == 0));
             }
 }

@@ -167,4 +167,11 @@ TEST_CASE("Power heuristic: two strategies' weights sum to 1, from 1e-38 to infi
     CHECK(f32::power_heuristic(1, 0) == 1);
     CHECK(f32::power_heuristic(0, 1) == 0);
     CHECK(f32::power_heuristic(2, 2) == 0.5f);
+    for (int n = 0; n < 100000; n++) {
+        float a = float(random.log_between(1e-30, 1e30)), b = a * float(random.between(0, 4));
+        CHECK(std::fabs(f32::power_heuristic_inverse(1 / a, b) - f32::power_heuristic(a, b)) <=
+              3 * 0x1p-23f);
+    }
+    CHECK(f32::power_heuristic_inverse(0, 1e38f) == 1);
+    CHECK(f32::power_heuristic_inverse(1e38f, 1e38f) == 0);
 }

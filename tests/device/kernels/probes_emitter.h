@@ -1,7 +1,7 @@
 // Probes of every kind of emitter in the list, each alone and through the dispatch.
 
 FN ProbeOut out_emitter(EmitterSample s) {
-    ProbeOut o = put1(put3(out3(s.wi), 3, s.weight), 6, s.pdf);
+    ProbeOut o = put1(put3(out3(s.wi), 3, s.weight), 6, s.inverse_pdf);
     o = put3(put3(put3(o, 7, s.q), 10, s.q_error), 13, s.q_normal);
     return put1(o, 16, mask_word(s.distant));
 }
@@ -27,7 +27,7 @@ FN ProbeOut probe_any_emitter_hit(ProbeIn i) {
     Light l = in_Light(i, 0);
     vec3 p = in3(i, 16);
     EmitterSample s = emitter_sample(l, p, in2(i, 19));
-    EmitterHit hit = emitter_hit(l, p, s.wi, s.q);
+    EmitterHit hit = emitter_hit(l, p, s.wi, s.q, p.x == p.x);
     return put1(out3(hit.radiance), 3, hit.pdf);
 }
 
