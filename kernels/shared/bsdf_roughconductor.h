@@ -9,11 +9,10 @@ FN BsdfEval bsdf_roughconductor_eval(Material m, vec3 wo, vec3 wi) {
     vec3 h = normalize3(add3(o, i));
     Real cosine = dot3(o, h);
     vec3 fresnel = fresnel_conductor_rgb(cosine, material_eta(m), material_k(m));
-    Real d_over_4z = microfacet_d(m, h) / (4.f * o.z);
-    Real value = d_over_4z * microfacet_g1(m, o) * microfacet_g1(m, i);
+    Real value = .25f * microfacet_visible_d(m, o, h) * microfacet_g1(m, i);
     BsdfEval e;
     e.f = sel3(reflects, scale3(mul3(fresnel, material_reflectance(m)), value), splat3(R(0.)));
-    e.pdf = sel(reflects, microfacet_pdf(m, o, h) / (4.f * cosine), R(0.));
+    e.pdf = sel(reflects, .25f * microfacet_sample_visible_d(m, o, h), R(0.));
     return e;
 }
 
@@ -30,6 +29,6 @@ FN BsdfSample bsdf_roughconductor_sample(Material m, vec3 wo, vec2 u, Real u_lob
     vec3 weight = scale3(mul3(fresnel, material_reflectance(m)), n.weight * microfacet_g1(m, wi));
     s.wi = wi;
     s.weight = sel3(reflects, weight, s.weight);
-    s.pdf = sel(reflects, n.pdf / (4.f * cosine), R(0.));
+    s.pdf = sel(reflects, .25f * n.visible_d, R(0.));
     return s;
 }

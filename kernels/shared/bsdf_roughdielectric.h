@@ -1,10 +1,11 @@
 // Rough dielectric interface: microfacet reflection and refraction (Walter et al. 2007, "Microfacet
 // models for refraction through rough surfaces").
 
-/// Jacobian dh/dwi of the refraction half vector, for cosines to h on this side (oh > 0) and beyond
-/// (ih < 0).
-FN Real refraction_jacobian(Real oh, Real ih, Real eta) {
-    return square(eta) * absR(ih) / square(oh + eta * ih);
+/// oh dh/dwi, the Jacobian of the half vector of reflection or refraction, for cosines to h on this
+/// side (oh > 0) and of wi (beyond: ih < 0).
+FN Real half_vector_jacobian(Mask reflect, Real oh, Real ih, Real eta) {
+    Real refracted = oh * square(eta) * absR(ih) / square(sel(reflect, R(1.), oh + eta * ih));
+    return sel(reflect, R(.25), refracted);
 }
 
 FN BsdfEval bsdf_roughdielectric_eval(Material m, vec3 wo, vec3 wi) {
@@ -30,17 +31,16 @@ FN BsdfEval bsdf_roughdielectric_eval(Material m, vec3 wo, vec3 wi) {
     ih = sel(usable, ih, sel(reflect, R(1.), R(-1.)));
     Fresnel f = fresnel_dielectric(oh, face);
     vec3 i_up = v3(i.x, i.y, absR(i.z));
-    Real dg = microfacet_d(m, h) * microfacet_g1(m, o) * microfacet_g1(m, i_up) / o.z;
-    Real pdf_h = microfacet_pdf(m, o, h);
-    Real jacobian = sel(reflect, R(.25) / oh, refraction_jacobian(oh, ih, face.eta));
+    Real dg = microfacet_visible_d(m, o, h) * microfacet_g1(m, i_up);
+    Real jacobian = half_vector_jacobian(reflect, oh, ih, face.eta);
     Real share = sel(reflect, f.reflectance, f.transmittance);
     Real scale = sel(reflect, R(1.), square(face.inv_eta));
-    Real value = share * dg * oh * jacobian * scale;
+    Real value = share * dg * jacobian * scale;
     BsdfEval e;
     e.f = sel3(usable,
                scale3(sel3(reflect, material_reflectance(m), material_transmittance(m)), value),
                splat3(R(0.)));
-    e.pdf = sel(usable, share * pdf_h * jacobian, R(0.));
+    e.pdf = sel(usable, share * microfacet_sample_visible_d(m, o, h) * jacobian, R(0.));
     return e;
 }
 
@@ -61,13 +61,14 @@ FN BsdfSample bsdf_roughdielectric_sample(Material m, vec3 wo, vec2 u, Real u_lo
     usable = usable & (sel(reflect, wi.z, -wi.z) > R(0.));
     vec3 i_up = sel3(usable, v3(wi.x, wi.y, absR(wi.z)), v3(R(0.), R(0.), R(1.)));
     Real ih = sel(usable, dot3(wi, n.h), sel(reflect, R(1.), R(-1.)));
-    Real jacobian = sel(reflect, R(.25) / oh, refraction_jacobian(oh, ih, face.eta));
+    Real jacobian = half_vector_jacobian(reflect, oh, ih, face.eta);
     Real weight = n.weight * microfacet_g1(m, i_up) * sel(reflect, R(1.), square(face.inv_eta));
     s.wi = sel3(usable, scale3(wi, side), s.wi);
     s.weight = sel3(
         usable, scale3(sel3(reflect, material_reflectance(m), material_transmittance(m)), weight),
         s.weight);
-    s.pdf = sel(usable, n.pdf * jacobian * sel(reflect, f.reflectance, f.transmittance), R(0.));
+    s.pdf =
+        sel(usable, n.visible_d * jacobian * sel(reflect, f.reflectance, f.transmittance), R(0.));
     s.eta = sel(usable & !reflect, face.eta, R(1.));
     return s;
 }

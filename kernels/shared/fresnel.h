@@ -63,7 +63,8 @@ FN vec3 refract_local(vec3 w, Interface i) {
 
 /// Unpolarised conductor Fresnel, one wavelength; eta + i k relative to the side of incidence, c
 /// the cosine. Written with a + i b = sqrt((eta + i k)^2 - sin^2): r_s = (c - a - i b)/(c + a + i
-/// b), R_p = R_s |(a + i b) c - s^2|^2/|(a + i b) c + s^2|^2.
+/// b), R_p = R_s |(a + i b) c - s^2|^2/|(a + i b) c + s^2|^2 = R_s (p - q)/(p + q), whose mean with
+/// R_s is R_s p/(p + q).
 FN Real fresnel_conductor(Real c, Real eta, Real k) {
     Real c_squared = c * c;
     Real s_squared = (R(1.) - c) * (R(1.) + c);
@@ -83,15 +84,14 @@ FN Real fresnel_conductor(Real c, Real eta, Real k) {
     Real s_sum = modulus + c_squared;
     // (a - c)^2 + b^2 is s_sum - two_ac, which cancels where little is reflected; there a - c =
     // (a^2 - c^2)/(a + c), and a^2 - c^2 = contrast + b^2.
-    Real a_plus_c = a + c;
+    Real a_plus_c_squared = square(a + c);
     Mask faint = two_ac > .5f * s_sum;
-    Real a_minus_c = (contrast + b_squared) / sel(faint, a_plus_c, R(1.));
-    Real s_difference = sel(faint, a_minus_c * a_minus_c + b_squared, s_sum - two_ac);
-    Real r_s = s_difference / (s_sum + two_ac);
+    Real s_faint = square(contrast + b_squared) + b_squared * a_plus_c_squared;
     Real p_sum = c_squared * modulus + s_squared * s_squared;
-    Real two_acs = two_ac * s_squared;
-    Real r_p = r_s * (p_sum - two_acs) / (p_sum + two_acs);
-    return sel(s_sum + two_ac > R(0.), .5f * (r_s + r_p), R(1.));
+    Real over = sel(faint, s_faint, s_sum - two_ac) * p_sum;
+    Real under =
+        sel(faint, a_plus_c_squared, R(1.)) * (s_sum + two_ac) * (p_sum + two_ac * s_squared);
+    return sel(under > R(0.), over / under, R(1.));
 }
 
 FN vec3 fresnel_conductor_rgb(Real c, vec3 eta, vec3 k) {

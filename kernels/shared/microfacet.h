@@ -4,45 +4,75 @@
 // Directions are local (normal +z), on the upper side. Shadowing-masking is the separable Smith
 // form G1(wi) G1(wo), as in Mitsuba 3, so that images agree.
 
-/// Slope squared of direction w in units of the roughness: (x^2 ax^2 + y^2 ay^2) / z^2. Infinite at
-/// the horizon.
-FN Real roughness_slope_squared(vec3 w, Real alpha_u, Real alpha_v) {
-    return (square(alpha_u * w.x) + square(alpha_v * w.y)) / square(w.z);
+/// Length of w stretched by the roughness, which for a direction of the slope t (in units of the
+/// roughness) is w.z sqrt(1 + t^2).
+FN Real stretched_length(vec3 w, Real alpha_u, Real alpha_v) {
+    return length3(v3(alpha_u * w.x, alpha_v * w.y, w.z));
 }
 
-/// GGX density of normals h (Walter et al. 2007; Heitz 2014), 1/sr. This form keeps its digits at
-/// small alpha.
+/// (h.x^2 / au^2 + h.y^2 / av^2) au av. Divides nothing where the roughness is isotropic.
+FN Real roughness_scaled_square(vec3 h, Real alpha_u, Real alpha_v) {
+    Real x = h.x * h.x, y = h.y * h.y;
+    if (HAS(anisotropy)) {
+        x = x * (alpha_v / alpha_u);
+        y = y * (alpha_u / alpha_v);
+    }
+    return x + y;
+}
+
+/// pi / D(h) of GGX: (h.x^2 / au^2 + h.y^2 / av^2 + h.z^2)^2 au av (Walter et al. 2007; Heitz
+/// 2014), from au av = r as (s + r h.z^2)^2 / r, which keeps its digits at small alpha (down to
+/// 1e-9). In two parts, so that what stands below a line need not be divided twice.
+typedef struct {
+    Real over, under;
+} Quotient;
+FN Quotient ggx_d_quotient(vec3 h, Real alpha_u, Real alpha_v) {
+    Real r = alpha_u * alpha_v;
+    Quotient d;
+    d.over = r * R(INV_PI);
+    d.under = square(roughness_scaled_square(h, alpha_u, alpha_v) + r * (h.z * h.z));
+    return d;
+}
+
+/// GGX density of normals h, 1/sr.
 FN Real ggx_d(vec3 h, Real alpha_u, Real alpha_v) {
-    Real x = h.x / alpha_u, y = h.y / alpha_v;
-    return R(INV_PI) / (alpha_u * alpha_v * square(x * x + y * y + h.z * h.z));
+    Quotient d = ggx_d_quotient(h, alpha_u, alpha_v);
+    return d.over / d.under;
 }
 
 /// Smith masking of GGX: 2 / (1 + sqrt(1 + slope^2)).
 FN Real ggx_g1(vec3 w, Real alpha_u, Real alpha_v) {
-    return R(2.) / (R(1.) + sqrtR(R(1.) + roughness_slope_squared(w, alpha_u, alpha_v)));
+    return 2.f * w.z / (w.z + stretched_length(w, alpha_u, alpha_v));
+}
+
+/// G1(wo) D(h) / wo.z of GGX: the density of visible normals is this times wo.h.
+FN Real ggx_visible_d(vec3 wo, vec3 h, Real alpha_u, Real alpha_v) {
+    Quotient d = ggx_d_quotient(h, alpha_u, alpha_v);
+    return 2.f * d.over / (d.under * (wo.z + stretched_length(wo, alpha_u, alpha_v)));
 }
 
 /// Beckmann density of normals h, 1/sr.
 FN Real beckmann_d(vec3 h, Real alpha_u, Real alpha_v) {
-    Real z_squared = h.z * h.z;
-    Real x = h.x / alpha_u, y = h.y / alpha_v;
-    Real e = exp_negative(-(x * x + y * y) / z_squared);
-    return e * R(INV_PI) / (alpha_u * alpha_v * z_squared * z_squared);
+    Real z_squared = h.z * h.z, scale = alpha_u * alpha_v * z_squared;
+    Real e = exp_negative(-roughness_scaled_square(h, alpha_u, alpha_v) / scale);
+    return e * R(INV_PI) / (scale * z_squared);
 }
 
 /// Smith masking of Beckmann, the rational approximation of Walter et al. 2007 (0.35 % from the
-/// exact form).
+/// exact form) in a = 1 / slope.
 FN Real beckmann_g1(vec3 w, Real alpha_u, Real alpha_v) {
-    Real slope = sqrtR(roughness_slope_squared(w, alpha_u, alpha_v));
-    Real a = R(1.) / sel(slope > R(0.), slope, R(1.));
+    Real across = sqrtR(square(alpha_u * w.x) + square(alpha_v * w.y));
+    Mask sloped = across > R(0.);
+    Real a = w.z / sel(sloped, across, R(1.));
     Real g = a * (R(3.535) + R(2.181) * a) / (R(1.) + a * (R(2.276) + R(2.577) * a));
-    return sel((a >= R(1.6)) | !(slope > R(0.)), R(1.), g);
+    return sel((a >= R(1.6)) | !sloped, R(1.), g);
 }
 
 /// A visible normal of GGX for the view direction wo, by spherical caps (Dupuy and Benyoub 2023).
 /// pdf(h) = G1(wo) D(h) max(0, wo.h) / wo.z
 FN vec3 ggx_sample_visible(vec3 wo, Real alpha_u, Real alpha_v, vec2 u) {
-    vec3 stretched = normalize3(v3(alpha_u * wo.x, alpha_v * wo.y, wo.z));
+    vec3 stretched = scale3(v3(alpha_u * wo.x, alpha_v * wo.y, wo.z),
+                            R(1.) / stretched_length(wo, alpha_u, alpha_v));
     SinCos phi = sincos_turns(u.x);
     Real z = (R(1.) - u.y) * (R(1.) + stretched.z) - stretched.z;
     Real r = sqrt_nonnegative((R(1.) - z) * (R(1.) + z));
@@ -56,12 +86,15 @@ FN vec3 ggx_sample_visible(vec3 wo, Real alpha_u, Real alpha_v, vec2 u) {
 /// mask.)
 FN Mask is_beckmann(Material m) { return m.distribution != 0; }
 
-FN Real microfacet_d(Material m, vec3 h) {
+/// G1(wo) D(h) / wo.z of the material's distribution.
+FN Real microfacet_visible_d(Material m, vec3 wo, vec3 h) {
     Real d = R(0.);
-    if (HAS(ggx)) d = ggx_d(h, m.alpha_u, m.alpha_v);
+    if (HAS(ggx)) d = ggx_visible_d(wo, h, m.alpha_u, m.alpha_v);
     if (HAS(beckmann)) {
-        if (someLane(is_beckmann(m)))
-            d = sel(is_beckmann(m), beckmann_d(h, m.alpha_u, m.alpha_v), d);
+        if (someLane(is_beckmann(m))) {
+            Real masking = beckmann_g1(wo, m.alpha_u, m.alpha_v);
+            d = sel(is_beckmann(m), masking * beckmann_d(h, m.alpha_u, m.alpha_v) / wo.z, d);
+        }
     }
     return d;
 }
@@ -79,9 +112,14 @@ FN Real microfacet_g1(Material m, vec3 w) {
 
 typedef struct {
     vec3 h;
-    Real pdf;    // of h, 1/sr
-    Real weight; // G1(wo) D(h) (wo.h) / (wo.z pdf(h)): 1 for GGX
+    Real visible_d; // density of h (1/sr) over wo.h
+    Real weight;    // G1(wo) D(h) (wo.h) / (wo.z pdf(h)): 1 for GGX
 } NormalSample;
+
+/// Over wo.h, the density with which microfacet_sample returns h.
+FN Real microfacet_sample_visible_d(Material m, vec3 wo, vec3 h) {
+    return ggx_visible_d(wo, h, m.alpha_u, m.alpha_v);
+}
 
 /// Both distributions are sampled by the visible normals of GGX: Beckmann's tails are lighter, so
 /// that its weight D_beckmann G1_beckmann / (D_ggx G1_ggx) is bounded, and no inverse error
@@ -89,22 +127,13 @@ typedef struct {
 FN NormalSample microfacet_sample(Material m, vec3 wo, vec2 u) {
     NormalSample s;
     s.h = ggx_sample_visible(wo, m.alpha_u, m.alpha_v, u);
-    s.pdf = ggx_g1(wo, m.alpha_u, m.alpha_v) * ggx_d(s.h, m.alpha_u, m.alpha_v) *
-            absR(dot3(wo, s.h)) / wo.z;
+    s.visible_d = microfacet_sample_visible_d(m, wo, s.h);
     s.weight = R(1.);
     if (HAS(beckmann)) {
         if (someLane(is_beckmann(m))) {
-            Real ratio = beckmann_g1(wo, m.alpha_u, m.alpha_v) *
-                         beckmann_d(s.h, m.alpha_u, m.alpha_v) /
-                         (ggx_g1(wo, m.alpha_u, m.alpha_v) * ggx_d(s.h, m.alpha_u, m.alpha_v));
-            s.weight = sel(is_beckmann(m), ratio, R(1.));
+            Real own = microfacet_visible_d(m, wo, s.h);
+            s.weight = sel(is_beckmann(m), own / s.visible_d, R(1.));
         }
     }
     return s;
-}
-
-/// Density with which microfacet_sample returns h.
-FN Real microfacet_pdf(Material m, vec3 wo, vec3 h) {
-    return ggx_g1(wo, m.alpha_u, m.alpha_v) * ggx_d(h, m.alpha_u, m.alpha_v) * absR(dot3(wo, h)) /
-           wo.z;
 }

@@ -115,7 +115,7 @@ TEST_CASE("Frames: s follows the tangent", "[maths]") {
 
 TEST_CASE("Microfacets: GGX and Beckmann densities from alpha 1e-4 to 1", "[maths]") {
     Random random(46);
-    Worst ggx, ggx_masking, beckmann;
+    Worst ggx, ggx_masking, ggx_visible, beckmann;
     for (int n = 0; n < 1000000; n++) {
         float au = float(random.log_between(1e-4, 1)), av = float(random.log_between(1e-4, 1));
         double slope = random.log_between(1e-3, 1e3) * std::min(au, av),
@@ -126,6 +126,9 @@ TEST_CASE("Microfacets: GGX and Beckmann densities from alpha 1e-4 to 1", "[math
         f64::vec3 wide_h = wide(h);
         ggx.add(ulps(f32::ggx_d(h, au, av), f64::ggx_d(wide_h, au, av)));
         ggx_masking.add(ulps(f32::ggx_g1(h, au, av), f64::ggx_g1(wide_h, au, av)));
+        f32::vec3 o = f32::v3(h.y, -h.x, h.z);
+        ggx_visible.add(ulps(f32::ggx_visible_d(o, h, au, av),
+                             f64::ggx_d(wide_h, au, av) * f64::ggx_g1(wide(o), au, av) / o.z));
         // The exponential turns an absolute error of its argument into a relative one.
         double exponent =
             f64::square(wide_h.x / au / wide_h.z) + f64::square(wide_h.y / av / wide_h.z);
@@ -137,6 +140,7 @@ TEST_CASE("Microfacets: GGX and Beckmann densities from alpha 1e-4 to 1", "[math
     }
     CHECK(ggx.value() <= 10);
     CHECK(ggx_masking.value() <= 8);
+    CHECK(ggx_visible.value() <= 14);
     CHECK(beckmann.value() <= 8);
     // At the normal: 1 / (pi au av), also where a float's 1 - alpha^2 is 1.
     CHECK(f32::ggx_d(f32::v3(0, 0, 1), 1e-4f, 1e-4f) == Approx(1e8 / M_PI).epsilon(1e-6));

@@ -81,7 +81,7 @@ FN ProbeOut probe_fresnel_conductor(ProbeIn i) {
 FN ProbeOut probe_ggx(ProbeIn i) {
     vec3 h = in3(i, 0);
     ProbeOut o = out2(v2(ggx_d(h, i.w[3], i.w[4]), ggx_g1(h, i.w[3], i.w[4])));
-    return put1(o, 2, roughness_slope_squared(h, i.w[3], i.w[4]));
+    return put1(o, 2, ggx_visible_d(h, in3(i, 5), i.w[3], i.w[4]));
 }
 FN ProbeOut probe_beckmann(ProbeIn i) {
     vec3 h = in3(i, 0);
@@ -113,7 +113,7 @@ FN ProbeOut probe_russian_roulette(ProbeIn i) {
                 PROBE(frame_from_tangent, "dp", 9) PROBE(reflect, "dd", 6)                         \
                     PROBE(refract_local, "di", 3) PROBE(refract_about, "ddi", 3)                   \
                         PROBE(fresnel_dielectric, "ci", 3) PROBE(fresnel_conductor, "css", 1)      \
-                            PROBE(ggx, "daa", 3) PROBE(beckmann, "daa", 2)                         \
+                            PROBE(ggx, "daad", 3) PROBE(beckmann, "daa", 2)                         \
                                 PROBE(ggx_sample_visible, "daauu", 3)                              \
                                     PROBE(power_heuristic, "rr", 2)                                \
                                         PROBE(russian_roulette, "rrrcu", 2)
