@@ -42,6 +42,9 @@ f32::Primitive corners(const PrimitiveRecord& r) {
     p.ax = r.ax, p.ay = r.ay, p.az = r.az;
     p.bx = r.bx, p.by = r.by, p.bz = r.bz;
     p.cx = r.cx, p.cy = r.cy, p.cz = r.cz;
+    vec3 a = f32::primitive_a(p), e1 = f32::sub3(f32::primitive_b(p), a),
+         e2 = f32::sub3(f32::primitive_c(p), a);
+    p.extra = 1.f / f32::length3(f32::cross3(e1, e2));
     return p;
 }
 

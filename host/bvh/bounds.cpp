@@ -36,7 +36,7 @@ Interval disk_extent(float centre, float u, float v) {
 std::array<Interval, 3> extents(const PrimitiveRecord& p) {
     switch (geometry_kind(p)) {
     case geometry_sphere: {
-        double radius = std::fabs(p.radius);
+        double radius = std::fabs(p.extra);
         return {outward(p.ax, radius), outward(p.ay, radius), outward(p.az, radius)};
     }
     case geometry_disk:

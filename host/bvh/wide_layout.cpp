@@ -127,7 +127,7 @@ private:
 };
 
 std::array<float, 9> leaf_column(const PrimitiveRecord& p) {
-    if (geometry_kind(p) == geometry_sphere) return {p.ax, p.ay, p.az, p.radius};
+    if (geometry_kind(p) == geometry_sphere) return {p.ax, p.ay, p.az, p.extra};
     return {p.ax, p.ay, p.az, p.bx, p.by, p.bz, p.cx, p.cy, p.cz};
 }
 

@@ -44,6 +44,12 @@ void set_points(PrimitiveRecord& p, const glm::dvec3& a, const glm::dvec3& b, co
     p.cx = fc.x, p.cy = fc.y, p.cz = fc.z;
 }
 
+/// 1 / |cross(u, v)| as a record keeps it: 0 where the plane of u and v is none that floats know.
+float inverse_normal_length(const glm::dvec3& u, const glm::dvec3& v) {
+    double inverse = 1.0 / glm::length(glm::cross(u, v));
+    return inverse <= double{std::numeric_limits<float>::max()} ? static_cast<float>(inverse) : 0.f;
+}
+
 VertexRecord vertex_record(const Mesh& mesh, const glm::uvec3& t) {
     VertexRecord v{};
     if (!mesh.normals.empty()) {
@@ -77,6 +83,9 @@ void add_shape(const Mesh& mesh, const Shape& shape, int index, DeviceScene& out
         PrimitiveRecord p = primitive(shape, index, geometry_triangle, flags);
         p.index_in_shape = static_cast<int>(i);
         set_points(p, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+        glm::dvec3 a(p.ax, p.ay, p.az);
+        p.extra = inverse_normal_length(glm::dvec3(p.bx, p.by, p.bz) - a,
+                                        glm::dvec3(p.cx, p.cy, p.cz) - a);
         out.primitives[first + i] = p;
         if (attributes) out.vertices[first + i] = vertex_record(mesh, t);
     });
@@ -91,7 +100,7 @@ void add_shape(const Sphere& sphere, const Shape& shape, int index, DeviceScene&
     PrimitiveRecord p =
         primitive(shape, index, geometry_sphere, sphere.flip_normals ? PRIMITIVE_FLIPPED : 0);
     set_points(p, sphere.center, sphere.axis_x, sphere.axis_z);
-    p.radius = static_cast<float>(sphere.radius);
+    p.extra = static_cast<float>(sphere.radius);
     add_analytic(p, out);
 }
 
@@ -99,6 +108,7 @@ void add_shape(const Disk& disk, const Shape& shape, int index, DeviceScene& out
     PrimitiveRecord p =
         primitive(shape, index, geometry_disk, disk.flip_normals ? PRIMITIVE_FLIPPED : 0);
     set_points(p, disk.center, disk.edge_u, disk.edge_v);
+    p.extra = inverse_normal_length(disk.edge_u, disk.edge_v);
     add_analytic(p, out);
 }
 

@@ -107,9 +107,9 @@ Row primitive_row(const DeviceScene& scene, int index, bool pair, const Rgb& rad
     case geometry_sphere:
         row = make_row(emitter_area_sphere, radiance);
         set_a(row.light, point_a(p));
-        row.light.bx = p.radius;
+        row.light.bx = p.extra;
         row.light.extra = side;
-        row.area = 4.0 * pi * double{p.radius} * p.radius;
+        row.area = 4.0 * pi * double{p.extra} * p.extra;
         break;
     case geometry_disk:
         row = make_row(emitter_area_disk, radiance);
@@ -173,7 +173,7 @@ double scene_radius(std::span<const PrimitiveRecord> primitives) {
     for (const PrimitiveRecord& p : primitives) {
         switch (p.flags & PRIMITIVE_KIND_MASK) {
         case geometry_sphere:
-            grow(point_a(p), p.radius);
+            grow(point_a(p), p.extra);
             break;
         case geometry_disk:
             grow(point_a(p), std::hypot(glm::length(point_b(p)), glm::length(point_c(p))));

@@ -32,7 +32,7 @@ FN SurfaceInteraction surface_triangle(Primitive p, Real b1, Real b2) {
     s.error = scale3(interpolate3(abs3(a), abs3(b), abs3(c), absR(b1), absR(b2)), GAMMA(7.f));
     // 1 - b1 - b2 can round to a small negative number; its share of the bound must not be.
     s.error = add3(s.error, scale3(abs3(a), (absR(b0) - b0) * GAMMA(7.f)));
-    s.ng = normalize3(cross3(sub3(b, a), sub3(c, a)));
+    s.ng = scale3(cross3(sub3(b, a), sub3(c, a)), p.extra);
     s.ns = s.ng;
     s.uv = v2(b1, b2);
     s.tangent = splat3(R(0.));
@@ -83,8 +83,8 @@ FN SurfaceInteraction surface_sphere(Primitive p, vec3 on_ray) {
     s.p = add3(
         centre,
         scale3(outward,
-               p.radius)); // back on the sphere: the error no longer grows with the ray's length
-    s.error = scale3(add3(abs3(centre), scale3(abs3(outward), p.radius)), GAMMA(7.f));
+               p.extra)); // back on the sphere: the error no longer grows with the ray's length
+    s.error = scale3(add3(abs3(centre), scale3(abs3(outward), p.extra)), GAMMA(7.f));
     s.ng = scale3(outward, primitive_side(p));
     s.ns = s.ng;
     s.tangent = splat3(R(0.));
@@ -108,7 +108,7 @@ FN SurfaceInteraction surface_disk(Primitive p, Real b1, Real b2) {
     s.error = scale3(
         add3(abs3(centre), add3(scale3(abs3(edge_u), absR(b1)), scale3(abs3(edge_v), absR(b2)))),
         GAMMA(7.f));
-    s.ng = scale3(normalize3(cross3(edge_u, edge_v)), primitive_side(p));
+    s.ng = scale3(cross3(edge_u, edge_v), p.extra * primitive_side(p));
     s.ns = s.ng;
     s.tangent = splat3(R(0.));
     s.uv = v2(R(0.), R(0.));

@@ -19,15 +19,15 @@
 // clang-format off
 
 // ------------------------------------------------------------------------------------------------ geometry
-// kind      a            b         c         radius
-// triangle  vertex 0     vertex 1  vertex 2  -
+// kind      a            b         c         extra
+// triangle  vertex 0     vertex 1  vertex 2  1 / |cross(b - a, c - a)|, 0 where that has no length
 // sphere    centre       axis x    axis z    radius
-// disk      centre       edge u    edge v    -
+// disk      centre       edge u    edge v    1 / |cross(b, c)|
 #define PRIMITIVE_FIELDS(X)                                                                        \
     X(float, ax) X(float, ay) X(float, az)                                                         \
     X(float, bx) X(float, by) X(float, bz)                                                         \
     X(float, cx) X(float, cy) X(float, cz)                                                         \
-    X(float, radius)                                                                               \
+    X(float, extra)                                                                                \
     X(int, material_front) X(int, material_back) /* -1: absorbs */                                 \
     X(int, light)                                /* row of the light table, -1: does not emit */    \
     X(int, shape) X(int, index_in_shape)                                                           \

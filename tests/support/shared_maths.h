@@ -35,6 +35,13 @@ typename P::Vec3 vec_as(V v) {
 }
 inline f64::vec3 wide(f32::vec3 v) { return {v.x, v.y, v.z}; }
 
+/// What the record of a triangle keeps in `extra`.
+inline float inverse_normal_length(const f32::Primitive& p) {
+    f64::vec3 a = wide(f32::primitive_a(p)), b = wide(f32::primitive_b(p)),
+              c = wide(f32::primitive_c(p));
+    return float(1 / f64::length3(f64::cross3(f64::sub3(b, a), f64::sub3(c, a))));
+}
+
 /// Random numbers with a fixed seed; floats on the device's grid of 2^-24.
 class Random {
 public:

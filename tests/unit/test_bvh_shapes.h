@@ -37,7 +37,7 @@ inline PrimitiveRecord primitive(int kind, const Vector& a, const Vector& b, con
     p.ax = a[0], p.ay = a[1], p.az = a[2];
     p.bx = b[0], p.by = b[1], p.bz = b[2];
     p.cx = c[0], p.cy = c[1], p.cz = c[2];
-    p.radius = radius;
+    p.extra = radius;
     p.flags = kind | PRIMITIVE_UVS; // a flag that is not the kind
     return p;
 }

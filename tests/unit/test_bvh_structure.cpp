@@ -45,7 +45,7 @@ Bounds inner_bounds(const PrimitiveRecord& p) {
             b.grow(corner);
     if (kind_of(p) == geometry_sphere)
         for (std::size_t axis = 0; axis < 3; axis++)
-            for (float side : {-p.radius, p.radius}) {
+            for (float side : {-p.extra, p.extra}) {
                 Vector extreme = a;
                 extreme[axis] += side;
                 b.grow(extreme);
@@ -158,7 +158,7 @@ Primitives flattened(Primitives primitives) {
 
 Primitives magnified(Primitives primitives, float factor) {
     for (PrimitiveRecord& p : primitives)
-        for (float* x : {&p.ax, &p.ay, &p.az, &p.bx, &p.by, &p.bz, &p.cx, &p.cy, &p.cz, &p.radius})
+        for (float* x : {&p.ax, &p.ay, &p.az, &p.bx, &p.by, &p.bz, &p.cx, &p.cy, &p.cz, &p.extra})
             *x *= factor;
     return primitives;
 }

@@ -78,7 +78,7 @@ inline void take(Hit& hit, const f32::Intersection& i, int primitive) {
 inline int kind_of(const PrimitiveRecord& p) { return p.flags & PRIMITIVE_KIND_MASK; }
 
 inline std::array<float, 9> column_of(const PrimitiveRecord& p) {
-    if (kind_of(p) == geometry_sphere) return {p.ax, p.ay, p.az, p.radius};
+    if (kind_of(p) == geometry_sphere) return {p.ax, p.ay, p.az, p.extra};
     return {p.ax, p.ay, p.az, p.bx, p.by, p.bz, p.cx, p.cy, p.cz};
 }
 

@@ -147,6 +147,7 @@ TEST_CASE("Triangles: without texture coordinates the shading frame follows the 
         p.ax = random.between(-1, 1), p.ay = random.between(-1, 1), p.az = random.between(-1, 1);
         p.bx = p.ax + 1, p.by = p.ay + random.between(-1, 1), p.bz = p.az;
         p.cx = p.ax, p.cy = p.ay + random.between(-.2, .2), p.cz = p.az + 1;
+        p.extra = inverse_normal_length(p);
         f32::SurfaceInteraction s = f32::surface_triangle(p, .25f, .25f);
         f32::ShadingFrame frame = f32::surface_frame(s);
         f64::vec3 edge = f64::normalize3({p.bx - double(p.ax), p.by - double(p.ay), 0});

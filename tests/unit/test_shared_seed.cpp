@@ -126,6 +126,7 @@ TEST_CASE("Seed e: shading normals are interpolated by barycentrics", "[seed]") 
         p.ax = corners[0].x, p.ay = corners[0].y, p.az = corners[0].z;
         p.bx = corners[1].x, p.by = corners[1].y, p.bz = corners[1].z;
         p.cx = corners[2].x, p.cy = corners[2].y, p.cz = corners[2].z;
+        p.extra = inverse_normal_length(p);
         p.flags = geometry_triangle | PRIMITIVE_NORMALS;
         f32::vec2 b = f32::triangle_uniform(random.square<F32>());
         auto sum =

@@ -14,6 +14,7 @@ f32::Primitive triangle_primitive(const f32::vec3 (&v)[3]) {
     p.ax = v[0].x, p.ay = v[0].y, p.az = v[0].z;
     p.bx = v[1].x, p.by = v[1].y, p.bz = v[1].z;
     p.cx = v[2].x, p.cy = v[2].y, p.cz = v[2].z;
+    p.extra = inverse_normal_length(p);
     return p;
 }
 
@@ -66,20 +67,21 @@ TEST_CASE("Leaving a sphere or a disk: always on the side that the ray goes to",
             f64::scale3(random.direction<F64>(), n % 2 ? size * random.log_between(1, 1e3) : 0));
         p.ax = centre.x, p.ay = centre.y, p.az = centre.z;
         p.bx = 1, p.cz = 1;
-        p.radius = float(size);
+        p.extra = float(size);
         f32::vec3 w = random.direction<F32>();
         f64::vec3 on = f64::add3(wide(centre), f64::scale3(random.direction<F64>(),
                                                            size * random.between(0.9999, 1.0001)));
         f32::SurfaceInteraction s = f32::surface_sphere(p, vec_as<F32>(on));
         f32::vec3 q = f32::leave_surface(s.p, f32::surface_clearance(s.error, s.ng), s.ng, w);
         f64::vec3 from_centre = f64::sub3(wide(q), wide(centre));
-        __float128 beyond = dot128(from_centre, from_centre) - (__float128)p.radius * p.radius;
+        __float128 beyond = dot128(from_centre, from_centre) - (__float128)p.extra * p.extra;
         bool outward = f32::dot3(w, s.ng) > 0;
         wrong_sphere += !(outward ? beyond > 0 : beyond < 0);
 
         f32::ShadingFrame frame = f32::frame_from_normal(random.direction<F32>());
-        f32::vec3 u = f32::scale3(frame.s, p.radius), v = f32::scale3(frame.t, p.radius);
+        f32::vec3 u = f32::scale3(frame.s, p.extra), v = f32::scale3(frame.t, p.extra);
         p.bx = u.x, p.by = u.y, p.bz = u.z, p.cx = v.x, p.cy = v.y, p.cz = v.z;
+        p.extra = float(1 / f64::length3(f64::cross3(wide(u), wide(v))));
         f32::vec2 at = f32::disk_uniform(random.square<F32>());
         s = f32::surface_disk(p, at.x, at.y);
         q = f32::leave_surface(s.p, f32::surface_clearance(s.error, s.ng), s.ng, w);
