@@ -9,23 +9,23 @@ typedef struct {
 /// The two nodes that a step of the walk chooses between.
 typedef struct {
     LightNode left, right;
-    Real left_share, right_share;           // of the importance to the surface, 0 if both are dark
-    Real left_share_hint, right_share_hint; // of the importance to the point
+    LightImportance left_importance, right_importance;
+    LightImportance sum; // 1 where both are dark
+    Mask lit;            // some light reaches the surface
 } LightPair;
 
 FN LightPair light_pair(global const LightNodeRecord* nodes, Int first, vec3 p, vec3 n) {
     LightPair pair;
     pair.left = load_LightNode(nodes, first);
-    pair.right = load_LightNode(nodes, first + 1);
+    pair.right = load_LightNode(nodes + 1, first);
     LightImportance left = light_importance(pair.left, p, n),
                     right = light_importance(pair.right, p, n);
-    Real sum = left.to_surface + right.to_surface, sum_hint = left.to_point + right.to_point;
-    Real scale = R(1.) / sel(sum > R(0.), sum, R(1.));
-    Real scale_hint = R(1.) / sel(sum_hint > R(0.), sum_hint, R(1.));
-    pair.left_share = left.to_surface * scale;
-    pair.right_share = right.to_surface * scale;
-    pair.left_share_hint = left.to_point * scale_hint;
-    pair.right_share_hint = right.to_point * scale_hint;
+    Real surface = left.to_surface + right.to_surface, point = left.to_point + right.to_point;
+    pair.lit = surface > R(0.);
+    pair.sum.to_surface = sel(pair.lit, surface, R(1.));
+    pair.sum.to_point = sel(point > R(0.), point, R(1.));
+    pair.left_importance = left;
+    pair.right_importance = right;
     return pair;
 }
 
@@ -42,20 +42,22 @@ FN LightPick pick_light(global const LightNodeRecord* nodes, vec3 p, vec3 n, Mas
     Mask walking = wanted;
     while (someLane(walking)) {
         LightPair pair = light_pair(nodes, first, p, n);
-        Mask lit = (pair.left_share > R(0.)) | (pair.right_share > R(0.));
-        Mask left = (u < pair.left_share) | (pair.right_share == R(0.));
-        Real share = sel(left, pair.left_share, pair.right_share);
-        Real share_hint = sel(left, pair.left_share_hint, pair.right_share_hint);
-        pick.pmf = sel(walking, pick.pmf * share, pick.pmf);
-        pick.pmf_hint = sel(walking, pick.pmf_hint * share_hint, pick.pmf_hint);
+        Real at = u * pair.sum.to_surface, left_end = pair.left_importance.to_surface;
+        Mask left = (at < left_end) | (pair.right_importance.to_surface == R(0.));
+        Real chosen = sel(left, left_end, pair.right_importance.to_surface);
+        Real chosen_hint = sel(left, pair.left_importance.to_point, pair.right_importance.to_point);
+        pick.pmf = sel(walking, pick.pmf * (chosen / pair.sum.to_surface), pick.pmf);
+        pick.pmf_hint =
+            sel(walking, pick.pmf_hint * (chosen_hint / pair.sum.to_point), pick.pmf_hint);
         Int child = sel(left, pair.left.child, pair.right.child);
         Mask leaf = child < 0;
-        pick.row = sel(walking & leaf & lit, ~child, pick.row);
-        walking = walking & lit & !leaf;
+        pick.row = sel(walking & leaf & pair.lit, ~child, pick.row);
+        walking = walking & pair.lit & !leaf;
         first = sel(walking, child, first);
         y = y * 1664525u + 1013904223u;
-        Real within = sel(left, u, u - pair.left_share) + uniform01(y) * R(5.9604644775390625e-8);
-        u = minR(within / sel(share > R(0.), share, R(1.)), R(0.99999994));
+        Real refill = pair.sum.to_surface * R(5.9604644775390625e-8) * uniform01(y);
+        Real within = sel(left, at, at - left_end) + refill;
+        u = minR(within / sel(pair.lit, chosen, R(1.)), R(0.99999994));
     }
     return pick;
 }
@@ -77,8 +79,8 @@ FN Real light_pmf(global const LightNodeRecord* nodes, global const int* leaves,
     while (someLane(walking)) {
         Mask left = (at & 1) == 0;
         LightPair pair = light_pair(nodes, at & ~1, p, unused);
-        Real share = sel(left, pair.left_share_hint, pair.right_share_hint);
-        pmf = sel(walking, pmf * share, pmf);
+        Real chosen = sel(left, pair.left_importance.to_point, pair.right_importance.to_point);
+        pmf = sel(walking, pmf * (chosen / pair.sum.to_point), pmf);
         Int parent = pair.left.parent;
         walking = walking & (parent >= 0);
         at = sel(walking, parent, at);

@@ -12,22 +12,24 @@ typedef struct {
 
 FN LightImportance light_importance(LightNode node, vec3 p, vec3 n) {
     vec3 to = sub3(p, v3(node.cx, node.cy, node.cz));
-    Real distance_squared = dot3(to, to);
-    Mask outside = distance_squared > node.radius * node.radius;
-    Real inverse = R(1.) / sqrtR(sel(outside, distance_squared, node.radius * node.radius));
+    Real to_squared = dot3(to, to), radius_squared = node.radius * node.radius;
+    Mask outside = to_squared > radius_squared;
+    Real distance_squared = sel(outside, to_squared, radius_squared);
+    // Cosines and sines are multiplied by the distance: the root need not wait for the division.
+    Real distance = sqrtR(distance_squared), inverse_squared = R(1.) / distance_squared;
     // Sine of the half angle under which the group's sphere is seen; any angle from inside.
-    Real sin_seen = sel(outside, node.radius * inverse, R(2.));
-    Real cos_axis = dot3(to, v3(node.ax, node.ay, node.az)) * inverse;
-    Real cos_surface = absR(dot3(to, n)) * inverse;
-    Real facing = minR(maxR(cos_axis + node.spread + sin_seen, R(0.)), R(1.));
-    Real most = node.intensity * facing * inverse * inverse;
+    Real seen = sel(outside, node.radius, 2.f * node.radius);
+    Real cos_axis = dot3(to, v3(node.ax, node.ay, node.az));
+    Real facing = minR(maxR(cos_axis + node.spread * distance + seen, R(0.)), distance);
+    Real surface = minR(absR(dot3(to, n)) + seen, distance);
+    Real brightness = node.intensity * inverse_squared;
     Mask fixed = node.fixed != 0;
     // Of a point light at p itself nothing is seen: the inverse of its distance is no number's.
-    Mask at_the_light = !finiteR(most);
-    most = sel(fixed, node.intensity, sel(at_the_light, R(0.), most));
+    Mask dark = !finiteR(brightness);
     LightImportance i;
-    i.to_point = most;
-    i.to_surface = sel(fixed, most, most * minR(cos_surface + sin_seen, R(1.)));
-    i.to_surface = sel(at_the_light & !fixed, R(0.), i.to_surface);
+    i.to_point = brightness * (facing * distance * inverse_squared);
+    i.to_surface = brightness * (facing * surface * inverse_squared);
+    i.to_point = sel(fixed, node.intensity, sel(dark, R(0.), i.to_point));
+    i.to_surface = sel(fixed, node.intensity, sel(dark, R(0.), i.to_surface));
     return i;
 }
