@@ -69,6 +69,11 @@ FN Real gather(global const float* p, Int index) { return p[index]; }
 FN void scatter_add(global float* p, Int index, Real v, uint bits) {
     if (bits) p[index] += v;
 }
+FN void scatter_add3(global float* p, long stride, Int index, vec3 v, uint bits) {
+    scatter_add(p, index, v.x, bits);
+    scatter_add(p + stride, index, v.y, bits);
+    scatter_add(p + 2 * stride, index, v.z, bits);
+}
 
 #else
 // -----------------------------------------------------------------------------------------------
@@ -99,8 +104,35 @@ FN void scatter_add(global float* p, Int index, Real v, uint bits) {
     RealLanes x;
     i.lanes = index;
     x.lanes = v;
-    for (int k = 0; k < LANES; k++)
-        if ((bits >> k) & 1u) p[i.at[k]] += x.at[k];
+#ifdef LANE_AVX512
+    // Paths of the camera lie as they were made.
+    int first = i.at[0];
+    if (bits == (1u << LANES) - 1u && !someLane(index != (Int)first + LANE_INDEX)) {
+        *(global RealAnywhere*)(p + first) += v;
+        return;
+    }
+#endif
+    for (; bits; bits &= bits - 1) {
+        int k = lowest_bit(bits);
+        p[i.at[k]] += x.at[k];
+    }
+}
+
+/// The same for three values, each `stride` behind the one before: one loop, mostly of few lanes.
+FN void scatter_add3(global float* p, long stride, Int index, vec3 v, uint bits) {
+    IntLanes i;
+    RealLanes x, y, z;
+    i.lanes = index;
+    x.lanes = v.x;
+    y.lanes = v.y;
+    z.lanes = v.z;
+    for (; bits; bits &= bits - 1) {
+        int k = lowest_bit(bits);
+        global float* at = p + i.at[k];
+        at[0] += x.at[k];
+        at[stride] += y.at[k];
+        at[2 * stride] += z.at[k];
+    }
 }
 
 #if LANES == 16 && defined(__clang__)

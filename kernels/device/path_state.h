@@ -27,9 +27,7 @@
 
 /// Adds v to three neighbouring result channels of the lanes' slots.
 FN void add_result3(global float* results, long stride, int channel, Int slot, vec3 v, uint bits) {
-    scatter_add(results + channel * stride, slot, v.x, bits);
-    scatter_add(results + (channel + 1) * stride, slot, v.y, bits);
-    scatter_add(results + (channel + 2) * stride, slot, v.z, bits);
+    scatter_add3(results + channel * stride, stride, slot, v, bits);
 }
 
 /// Lanes of a packet that hold an entry: `left` entries from its first lane on.
