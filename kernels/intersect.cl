@@ -6,7 +6,7 @@
 #include "device/traverse_stream.h"
 
 /// Rays that go the same way, LANES at a time.
-FN void intersect_packets(global const BvhNode* nodes, global const BvhLeaf* leaves, int root,
+FN void intersect_packets(global const BvhNode* nodes, global const BvhLine* leaves, int root,
                           global float* path_state, RenderParams params, int begin, int end) {
     for (int at = begin; at < end; at += LANES) {
         PacketRay rays = packet_ray(v3(PATH_LOAD_REAL(ox), PATH_LOAD_REAL(oy), PATH_LOAD_REAL(oz)),

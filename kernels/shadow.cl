@@ -6,7 +6,7 @@
 #include "device/traverse_stream.h"
 
 /// Which lanes of a packet of shadow rays have something in their way.
-FN Mask shadow_packet(global const BvhNode* nodes, global const BvhLeaf* leaves,
+FN Mask shadow_packet(global const BvhNode* nodes, global const BvhLine* leaves,
                       global const float* shadow_state, RenderParams params, int at, Mask active) {
     PacketRay rays =
         packet_ray(v3(SHADOW_LOAD_REAL(ox), SHADOW_LOAD_REAL(oy), SHADOW_LOAD_REAL(oz)),

@@ -26,7 +26,7 @@ LargeVector<Reference> make_references(std::span<const PrimitiveRecord> primitiv
 struct Built {
     int root;
     double sah_cost = 0;
-    int depth = 1, stack_entries = 0;
+    WideExtent extent;
 };
 
 /// Builds a tree and appends it whole, or, where it needs more stack than allowed and may be
@@ -34,16 +34,16 @@ struct Built {
 bool append_tree(Bvh& bvh, std::span<const PrimitiveRecord> primitives, BinaryTree& tree,
                  int stack_limit, bool may_refuse, Built& built) {
     CollapsePlan plan = plan_collapse(tree);
-    WideTree wide = measure_wide_tree(tree, plan);
+    WideTree wide = measure_wide_tree(tree, plan, primitives);
     if (may_refuse && wide.extent.stack_entries > stack_limit) return false;
     int root = append_wide_tree(bvh, tree, plan, wide, primitives);
-    built = {root, plan.sah_cost, wide.extent.depth, wide.extent.stack_entries};
+    built = {root, plan.sah_cost, wide.extent};
     return true;
 }
 
 Built append_references(Bvh& bvh, std::span<const PrimitiveRecord> primitives,
                         LargeVector<Reference> references, int stack_limit) {
-    if (references.empty()) return {append_empty_node(bvh)};
+    if (references.empty()) return {append_empty_node(bvh), 0, {.nodes = 1, .depth = 1}};
     Built built;
     BinaryTree tree = build_binary_tree(std::move(references), SplitMethod::surface_area);
     if (append_tree(bvh, primitives, tree, stack_limit, true, built)) return built;
@@ -56,17 +56,17 @@ template<class NumberOf>
 int append_timed(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::size_t count,
                  const NumberOf& number_of, BvhStatistics* statistics, int stack_limit) {
     auto start = std::chrono::steady_clock::now();
-    std::size_t nodes_before = bvh.nodes.size(), leaves_before = bvh.leaves.size();
     Built built = append_references(bvh, primitives, make_references(primitives, count, number_of),
                                     stack_limit);
     if (statistics) {
         BvhStatistics s;
-        s.node_count = bvh.nodes.size() - nodes_before;
-        s.leaf_count = bvh.leaves.size() - leaves_before;
-        s.bytes = s.node_count * sizeof(BvhNode) + s.leaf_count * sizeof(BvhLeaf);
+        const WideExtent& extent = built.extent;
+        s.node_count = std::size_t(extent.nodes);
+        s.leaf_count = std::size_t(extent.leaves);
+        s.bytes = s.node_count * sizeof(BvhNode) + std::size_t(extent.leaf_lines) * sizeof(BvhLine);
         s.sah_cost = built.sah_cost;
-        s.depth = built.depth;
-        s.stack_entries = built.stack_entries;
+        s.depth = extent.depth;
+        s.stack_entries = extent.stack_entries;
         s.leaf_fill = s.leaf_count ? double(count) / double(s.leaf_count * BVH_WIDTH) : 0;
         s.build_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

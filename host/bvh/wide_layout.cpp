@@ -1,8 +1,7 @@
-// Numbering of nodes and leaves in the order of the tree, and packing of boxes and primitives into
-// rows of 16.
+// Numbering of nodes and leaves in the order of the tree, and packing of boxes into rows of 16.
 #include "host/bvh/wide_layout.h"
 
-#include "kernels/shared/features.h"
+#include "host/bvh/leaf_layout.h"
 
 #include <oneapi/tbb/task_group.h>
 
@@ -95,14 +94,25 @@ void for_node_children(const Collapsed& collapsed, const Children& children, con
 
 class Measurer {
 public:
-    Measurer(const Collapsed& collapsed, WideTree& wide) : collapsed_(collapsed), wide_(wide) {}
+    Measurer(const Collapsed& collapsed, std::span<const PrimitiveRecord> primitives,
+             WideTree& wide)
+        : collapsed_(collapsed), primitives_(primitives), wide_(wide) {}
+
+    WideExtent measure_leaf(int binary) const {
+        int lines = leaf_lines(collapsed_.references(binary), primitives_);
+        wide_.lines_below[std::size_t(binary)] = lines;
+        return {.leaves = 1, .leaf_lines = lines};
+    }
 
     /// A walk that goes down into one child leaves the others waiting: children - 1 entries a
     /// level.
     WideExtent measure(int binary) const {
         Children children = collapsed_.children(binary);
         std::array<WideExtent, BVH_WIDTH> below;
-        below.fill({0, 1, 0, 0});
+        for (int i = 0; i < children.count; i++) {
+            int child = children.binary[std::size_t(i)];
+            if (collapsed_.is_leaf(child)) below[std::size_t(i)] = measure_leaf(child);
+        }
         for_node_children(collapsed_, children,
                           [&](int i, int child) { below[std::size_t(i)] = measure(child); });
         WideExtent extent;
@@ -110,6 +120,7 @@ public:
             const WideExtent& child = below[std::size_t(i)];
             extent.nodes += child.nodes;
             extent.leaves += child.leaves;
+            extent.leaf_lines += child.leaf_lines;
             extent.depth = std::max(extent.depth, child.depth);
             extent.stack_entries = std::max(extent.stack_entries, child.stack_entries);
         }
@@ -117,19 +128,15 @@ public:
         extent.depth++;
         extent.stack_entries += children.count - 1;
         wide_.nodes_below[std::size_t(binary)] = extent.nodes;
-        wide_.leaves_below[std::size_t(binary)] = extent.leaves;
+        wide_.lines_below[std::size_t(binary)] = extent.leaf_lines;
         return extent;
     }
 
 private:
     const Collapsed& collapsed_;
+    std::span<const PrimitiveRecord> primitives_;
     WideTree& wide_;
 };
-
-std::array<float, 9> leaf_column(const PrimitiveRecord& p) {
-    if (geometry_kind(p) == geometry_sphere) return {p.ax, p.ay, p.az, p.extra};
-    return {p.ax, p.ay, p.az, p.bx, p.by, p.bz, p.cx, p.cy, p.cz};
-}
 
 class Writer {
 public:
@@ -137,43 +144,35 @@ public:
            std::span<const PrimitiveRecord> primitives)
         : bvh_(bvh), collapsed_(collapsed), wide_(wide), primitives_(primitives) {}
 
-    /// Writes the subtree of a wide node to the places from `node` and `leaf` on.
-    void write_node(int binary, int node, int leaf) const {
+    /// Writes the subtree of a wide node to the nodes and the lines from `node` and `line` on.
+    void write_node(int binary, int node, int line) const {
         Children children = collapsed_.children(binary);
         BvhNode& out = bvh_.nodes[std::size_t(node)] = empty_node();
-        std::array<int, BVH_WIDTH> first_node, first_leaf;
+        std::array<int, BVH_WIDTH> first_node, first_line;
         for (int i = 0; i < children.count; i++) {
             int child = children.binary[std::size_t(i)];
             write_box(out, i, collapsed_.node(child).box);
-            if (collapsed_.is_leaf(child)) out.child[i] = write_leaf(child, leaf++);
+            if (!collapsed_.is_leaf(child)) continue;
+            out.child[i] = write_leaf_at(child, line);
+            line += wide_.lines_below[std::size_t(child)];
         }
         node++;
         for (int i = 0; i < children.count; i++) {
             auto child = std::size_t(children.binary[std::size_t(i)]);
             if (collapsed_.is_leaf(int(child))) continue;
             first_node[std::size_t(i)] = out.child[i] = node;
-            first_leaf[std::size_t(i)] = leaf;
+            first_line[std::size_t(i)] = line;
             node += wide_.nodes_below[child];
-            leaf += wide_.leaves_below[child];
+            line += wide_.lines_below[child];
         }
         for_node_children(collapsed_, children, [&](int i, int child) {
-            write_node(child, first_node[std::size_t(i)], first_leaf[std::size_t(i)]);
+            write_node(child, first_node[std::size_t(i)], first_line[std::size_t(i)]);
         });
     }
 
     /// Returns the child code.
-    int write_leaf(int binary, int number) const {
-        std::span<const Reference> references = collapsed_.references(binary);
-        BvhLeaf& leaf = bvh_.leaves[std::size_t(number)] = {};
-        std::fill_n(leaf.primitive, BVH_WIDTH, -1);
-        for (std::size_t i = 0; i < references.size(); i++) {
-            int primitive = references[i].primitive();
-            std::array<float, 9> column = leaf_column(primitives_[std::size_t(primitive)]);
-            for (std::size_t row = 0; row < column.size(); row++)
-                leaf.rows[row][i] = column[row];
-            leaf.primitive[i] = primitive;
-        }
-        return ~((number << 2) | collapsed_.node(binary).kind);
+    int write_leaf_at(int binary, int line) const {
+        return write_leaf(bvh_, line, collapsed_.references(binary), primitives_);
     }
 
 private:
@@ -185,23 +184,24 @@ private:
 
 } // namespace
 
-WideTree measure_wide_tree(const BinaryTree& tree, const CollapsePlan& plan) {
+WideTree measure_wide_tree(const BinaryTree& tree, const CollapsePlan& plan,
+                           std::span<const PrimitiveRecord> primitives) {
     Collapsed collapsed(tree, plan);
-    if (collapsed.is_leaf(0)) return {{0, 1, 0, 0}, {}, {}};
     WideTree wide{{}, LargeVector<int>(tree.nodes.size()), LargeVector<int>(tree.nodes.size())};
-    wide.extent = Measurer(collapsed, wide).measure(0);
+    Measurer measurer(collapsed, primitives, wide);
+    wide.extent = collapsed.is_leaf(0) ? measurer.measure_leaf(0) : measurer.measure(0);
     return wide;
 }
 
 int append_wide_tree(Bvh& bvh, const BinaryTree& tree, const CollapsePlan& plan,
                      const WideTree& wide, std::span<const PrimitiveRecord> primitives) {
-    int node = int(bvh.nodes.size()), leaf = int(bvh.leaves.size());
+    int node = int(bvh.nodes.size()), line = int(bvh.leaves.size());
     bvh.nodes.resize(bvh.nodes.size() + std::size_t(wide.extent.nodes));
-    bvh.leaves.resize(bvh.leaves.size() + std::size_t(wide.extent.leaves));
+    bvh.leaves.resize(bvh.leaves.size() + std::size_t(wide.extent.leaf_lines));
     Collapsed collapsed(tree, plan);
     Writer writer(bvh, collapsed, wide, primitives);
-    if (collapsed.is_leaf(0)) return writer.write_leaf(0, leaf);
-    writer.write_node(0, node, leaf);
+    if (collapsed.is_leaf(0)) return writer.write_leaf_at(0, line);
+    writer.write_node(0, node, line);
     return node;
 }
 

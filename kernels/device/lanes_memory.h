@@ -15,6 +15,31 @@ typedef union {
     int at[LANES];
 } IntLanes;
 
+/// A table of 16 values and the places to look up; only the lowest 4 bits of each place count.
+#define TABLE_PARTS (16 / LANES)
+typedef struct {
+    Real part[TABLE_PARTS];
+} Table;
+FN Table load_table(global const float* p) {
+    Table t;
+    for (int part = 0; part < TABLE_PARTS; part++)
+        t.part[part] = LOAD_REAL(p + part * LANES);
+    return t;
+}
+FN Real look_up(const Table* t, Int place) {
+#if LANES == 1
+    return t->part[place & 15];
+#elif LANES == 16 && defined(LANE_AVX512)
+    return __builtin_ia32_permvarsf512(t->part[0], place);
+#elif LANES == 16
+    return shuffle(t->part[0], as_uint16(place));
+#elif defined(LANE_AVX512)
+    return __builtin_ia32_vpermi2varps256(t->part[0], place, t->part[1]);
+#else
+    return shuffle2(t->part[0], t->part[1], as_uint8(place));
+#endif
+}
+
 typedef struct {
     Real word[16];
 } Record;

@@ -4,9 +4,7 @@
 // Boxes are widened and triangles are watertight, so no hit is lost; of two hits at the same
 // distance the lower primitive number wins, so the answer does not depend on the order of the walk.
 
-#include "device/traversal_ray.h"
-
-#define LANE_GROUPS (BVH_WIDTH / LANES)
+#include "device/traverse_leaf.h"
 
 // Nothing hit: a number above all others, so that of two hits at one distance the lower wins.
 #define NO_PRIMITIVE 0x7fffffff
@@ -106,77 +104,23 @@ FN int walk_node(RayWalk* w, WalkStack* stack, global const BvhNode* node, int a
     return next;
 }
 
-#define LEAF_ROW(row) LOAD_REAL(leaf->rows[row] + group * LANES)
-
-/// For any hit only whether there is one. `rarely`: most often no lane is inside the triangle, so
-/// that a branch pays.
-FN Intersection triangle_hit(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max, int any_hit,
-                             int rarely) {
-    Intersection i;
-    i.t = i.b1 = i.b2 = R(0.);
-    if (any_hit) {
-        i.hit = triangle_blocks(a, b, c, ray, t_max);
-        return i;
-    }
-    TriangleEdges e = triangle_edges(a, b, c, ray);
-    i.hit = e.inside;
-    if (rarely && !someLane(e.inside)) return i;
-    return triangle_distance(e, a, b, c, ray, t_max);
-}
-
-FN Intersection leaf_triangles(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
-                               float t_max, int any_hit) {
-    int x = ray->axis[0], y = ray->axis[1], z = ray->axis[2];
-    Real ox = (Real)ray->origin[x], oy = (Real)ray->origin[y], oz = (Real)ray->origin[z];
-    RayShear shear;
-    shear.shear_x = (Real)ray->shear[0];
-    shear.shear_y = (Real)ray->shear[1];
-    shear.shear_z = (Real)ray->shear[2];
-    vec3 a = v3(LEAF_ROW(x) - ox, LEAF_ROW(y) - oy, LEAF_ROW(z) - oz);
-    vec3 b = v3(LEAF_ROW(3 + x) - ox, LEAF_ROW(3 + y) - oy, LEAF_ROW(3 + z) - oz);
-    vec3 c = v3(LEAF_ROW(6 + x) - ox, LEAF_ROW(6 + y) - oy, LEAF_ROW(6 + z) - oz);
-    return triangle_hit(a, b, c, shear, (Real)t_max, any_hit, 0);
-}
-
-FN vec3 splat_ray(const float* v) { return v3((Real)v[0], (Real)v[1], (Real)v[2]); }
-
-FN Intersection leaf_spheres(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
-                             float t_max) {
-    vec3 centre = v3(LEAF_ROW(0), LEAF_ROW(1), LEAF_ROW(2));
-    return intersect_sphere(sub3(splat_ray(ray->origin), centre), splat_ray(ray->direction),
-                            LEAF_ROW(3), (Real)t_max);
-}
-
-FN Intersection leaf_disks(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
-                           float t_max) {
-    vec3 centre = v3(LEAF_ROW(0), LEAF_ROW(1), LEAF_ROW(2));
-    vec3 edge_u = v3(LEAF_ROW(3), LEAF_ROW(4), LEAF_ROW(5)),
-         edge_v = v3(LEAF_ROW(6), LEAF_ROW(7), LEAF_ROW(8));
-    return intersect_disk(sub3(centre, splat_ray(ray->origin)), splat_ray(ray->direction), edge_u,
-                          edge_v, (Real)t_max);
-}
-
-FN Intersection leaf_group(global const BvhLeaf* leaf, int kind, int group, const TraversalRay* ray,
-                           float t_max, int any_hit) {
-    if (HAS(shape_sphere) && kind == geometry_sphere) return leaf_spheres(leaf, group, ray, t_max);
-    if (HAS(shape_disk) && kind == geometry_disk) return leaf_disks(leaf, group, ray, t_max);
-    return leaf_triangles(leaf, group, ray, t_max, any_hit);
-}
-
 /// Which primitives of a leaf the ray hits before its closest hit, and where.
 typedef struct {
     uint bits;
     RealLanes t[LANE_GROUPS], b1[LANE_GROUPS], b2[LANE_GROUPS];
 } LeafHits;
 
-FN void leaf_hits(const RayWalk* w, global const BvhLeaf* leaf, int kind, int any_hit,
+FN void leaf_hits(const RayWalk* w, global const BvhLine* leaf, int form, int any_hit,
                   LeafHits* hits) {
+    PatchCorners corners;
+    if (form == BVH_PATCH) patch_corners((global const BvhPatch*)leaf, &w->ray, &corners);
     hits->bits = 0;
     for (int group = 0; group < LANE_GROUPS; group++) {
-        Intersection i = leaf_group(leaf, kind, group, &w->ray, w->t, any_hit);
-        Int number = LOAD_INT(leaf->primitive + group * LANES);
-        Mask counts = i.hit & (number >= 0) & (number != (Int)w->excluded);
-        hits->bits |= maskBits(counts) << (group * LANES);
+        Intersection i = form == BVH_PATCH ? patch_triangles((global const BvhPatch*)leaf, &corners,
+                                                             group, &w->ray, w->t, any_hit)
+                                           : leaf_group((global const BvhLeaf*)leaf, form, group,
+                                                        &w->ray, w->t, any_hit);
+        hits->bits |= maskBits(i.hit) << (group * LANES);
         if (any_hit) continue;
         hits->t[group].lanes = i.t;
         hits->b1[group].lanes = i.b1;
@@ -185,13 +129,16 @@ FN void leaf_hits(const RayWalk* w, global const BvhLeaf* leaf, int kind, int an
 }
 
 /// Takes the hits of a leaf; whether the walk is over: for any hit the first one ends it.
-FN int walk_take(RayWalk* w, global const BvhLeaf* leaf, const LeafHits* hits, int any_hit) {
-    if (any_hit) {
-        w->primitive = hits->bits ? 0 : NO_PRIMITIVE;
-        return hits->bits != 0;
-    }
+FN int walk_take(RayWalk* w, global const BvhLine* leaf, int form, const LeafHits* hits,
+                 int any_hit) {
     for (uint bits = hits->bits; bits; bits &= bits - 1) {
-        int k = lowest_bit(bits), group = k / LANES, lane = k % LANES, number = leaf->primitive[k];
+        int k = lowest_bit(bits), number = leaf_number(leaf, form, k);
+        if (number == w->excluded) continue;
+        if (any_hit) {
+            w->primitive = 0;
+            return 1;
+        }
+        int group = k / LANES, lane = k % LANES;
         float t = hits->t[group].at[lane];
         if (t < w->t || (t == w->t && number < w->primitive)) {
             w->t = t, w->b1 = hits->b1[group].at[lane], w->b2 = hits->b2[group].at[lane];
@@ -203,16 +150,16 @@ FN int walk_take(RayWalk* w, global const BvhLeaf* leaf, const LeafHits* hits, i
 
 /// The whole walk of one ray through the tree below `code`.
 FN void walk_alone(RayWalk* w, WalkStack* stack, global const BvhNode* nodes,
-                   global const BvhLeaf* leaves, int code, int any_hit) {
+                   global const BvhLine* leaves, int code, int any_hit) {
     LeafHits hits;
     while (code != WALK_ENDS) {
         int next = WALK_ENDS;
         if (code >= 0) {
             next = walk_node(w, stack, nodes + code, any_hit);
         } else {
-            global const BvhLeaf* leaf = leaves + (~code >> 2);
-            leaf_hits(w, leaf, ~code & 3, any_hit, &hits);
-            if (walk_take(w, leaf, &hits, any_hit)) return;
+            global const BvhLine* leaf = leaf_at(leaves, code);
+            leaf_hits(w, leaf, LEAF_FORM(code), any_hit, &hits);
+            if (walk_take(w, leaf, LEAF_FORM(code), &hits, any_hit)) return;
         }
         code = next == WALK_ENDS ? walk_pop(w, stack, any_hit) : next;
     }

@@ -52,48 +52,54 @@ FN void stream_answer(const RayStream* s, int entry, const RayWalk* w) {
     ((global int*)s->state)[(long)path_primitive * s->stride + entry] = hit ? w->primitive : -1;
 }
 
-/// Fetches what a walk visits next ahead of its turn.
-FN void stream_prefetch(global const BvhNode* nodes, global const BvhLeaf* leaves, int code) {
-    global const char* p = code >= 0 ? (global const char*)(nodes + code)
-                                     : (global const char*)(leaves + (~code >> 2));
+/// Fetches what a walk visits next ahead of its turn, but for the primitive numbers of a BvhLeaf,
+/// which are wanted only where something is hit.
+FN void stream_prefetch(global const BvhNode* nodes, global const BvhLine* leaves, int code) {
+    global const char* p =
+        code >= 0 ? (global const char*)(nodes + code) : (global const char*)leaf_at(leaves, code);
     PREFETCH(p);
     PREFETCH(p + 64);
     PREFETCH(p + 128);
     PREFETCH(p + 192);
+    if (code < 0 && LEAF_FORM(code) == BVH_PATCH) return;
     PREFETCH(p + 256);
     PREFETCH(p + 320);
     PREFETCH(p + 384);
-    if (code < 0) {
-        PREFETCH(p + 448);
-        PREFETCH(p + 512);
-        PREFETCH(p + 576);
-    }
+    if (code >= 0) return;
+    PREFETCH(p + 448);
+    PREFETCH(p + 512);
 }
 
-/// Walks under way, and who of them stands at a node and who at a leaf.
+/// Walks under way, and lists of those that stand at a node and those that stand at a leaf.
 typedef struct {
     RayWalk walk[STREAM_WALKS];
     WalkStack stack[STREAM_WALKS];
     int entry[STREAM_WALKS], code[STREAM_WALKS];
     uchar at_node[STREAM_WALKS + 1], at_leaf[STREAM_WALKS + 1];
-    int node_count, leaf_count;
 } StreamWalks;
+
+/// How long the lists are; not beside them, so that it stays in registers.
+typedef struct {
+    int node, leaf;
+} StreamCounts;
 
 /// Sends walk i to its next node or leaf; a walk that is over (WALK_ENDS) answers, and the next ray
 /// takes its place.
-FN void stream_send(StreamWalks* s, RayStream* rays, int begin, int i, int next, int root,
-                    global const BvhNode* nodes, global const BvhLeaf* leaves) {
+FN StreamCounts stream_send(StreamWalks* s, StreamCounts counts, RayStream* rays, int begin, int i,
+                            int next, int root, global const BvhNode* nodes,
+                            global const BvhLine* leaves) {
     if (next == WALK_ENDS) {
         stream_answer(rays, s->entry[i], &s->walk[i]);
-        if (rays->next == rays->end) return;
+        if (rays->next == rays->end) return counts;
         s->entry[i] = stream_take(rays, begin, &s->walk[i], &s->stack[i]);
         next = root;
     }
     stream_prefetch(nodes, leaves, next);
     s->code[i] = next;
-    s->at_node[s->node_count] = s->at_leaf[s->leaf_count] = (uchar)i;
-    s->node_count += next >= 0;
-    s->leaf_count += next < 0;
+    s->at_node[counts.node] = s->at_leaf[counts.leaf] = (uchar)i;
+    counts.node += next >= 0;
+    counts.leaf += next < 0;
+    return counts;
 }
 
 /// Traces the entries [begin, end) of a state; begin is aligned to LANES.
@@ -101,43 +107,45 @@ FN void stream_send(StreamWalks* s, RayStream* rays, int begin, int i, int next,
 /// Each round moves all walks at nodes, then all at leaves, and each of these in two passes: the
 /// first has no branch that depends on a ray, so the processor overlaps the walks; the second
 /// decides from what the first has stored, so that a branch guessed wrongly costs little.
-FN void traverse_stream(global const BvhNode* nodes, global const BvhLeaf* leaves, int root,
+FN void traverse_stream(global const BvhNode* nodes, global const BvhLine* leaves, int root,
                         global float* state, long stride, int begin, int end, int any_hit) {
     RayStream rays;
     rays.state = state, rays.stride = stride;
     rays.next = begin, rays.end = end, rays.any_hit = any_hit;
     StreamWalks s;
-    s.node_count = s.leaf_count = 0;
+    StreamCounts at = {0, 0};
     for (int i = 0; i < STREAM_WALKS && rays.next < end; i++) {
         s.entry[i] = stream_take(&rays, begin, &s.walk[i], &s.stack[i]);
-        stream_send(&s, &rays, begin, i, root, root, nodes, leaves);
+        at = stream_send(&s, at, &rays, begin, i, root, root, nodes, leaves);
     }
     int next[STREAM_WALKS];
     LeafHits hits[STREAM_WALKS];
-    while (s.node_count + s.leaf_count > 0) {
+    while (at.node + at.leaf > 0) {
         // Writing the list of this round trails reading that of the one before.
-        int count = s.node_count;
+        int count = at.node;
         for (int k = 0; k < count; k++) {
             int i = s.at_node[k];
             next[k] = walk_node(&s.walk[i], &s.stack[i], nodes + s.code[i], any_hit);
         }
-        s.node_count = 0;
+        at.node = 0;
         for (int k = 0; k < count; k++) {
             int i = s.at_node[k], code = next[k];
             if (code == WALK_ENDS) code = walk_pop(&s.walk[i], &s.stack[i], any_hit);
-            stream_send(&s, &rays, begin, i, code, root, nodes, leaves);
+            at = stream_send(&s, at, &rays, begin, i, code, root, nodes, leaves);
         }
-        count = s.leaf_count;
+        count = at.leaf;
         for (int k = 0; k < count; k++) {
-            int i = s.at_leaf[k], code = ~s.code[i];
-            leaf_hits(&s.walk[i], leaves + (code >> 2), code & 3, any_hit, &hits[k]);
+            int i = s.at_leaf[k], code = s.code[i];
+            leaf_hits(&s.walk[i], leaf_at(leaves, code), LEAF_FORM(code), any_hit, &hits[k]);
         }
-        s.leaf_count = 0;
+        at.leaf = 0;
         for (int k = 0; k < count; k++) {
             int i = s.at_leaf[k];
-            int over = walk_take(&s.walk[i], leaves + (~s.code[i] >> 2), &hits[k], any_hit);
-            int code = over ? WALK_ENDS : walk_pop(&s.walk[i], &s.stack[i], any_hit);
-            stream_send(&s, &rays, begin, i, code, root, nodes, leaves);
+            int code = s.code[i];
+            int over =
+                walk_take(&s.walk[i], leaf_at(leaves, code), LEAF_FORM(code), &hits[k], any_hit);
+            code = over ? WALK_ENDS : walk_pop(&s.walk[i], &s.stack[i], any_hit);
+            at = stream_send(&s, at, &rays, begin, i, code, root, nodes, leaves);
         }
     }
 }

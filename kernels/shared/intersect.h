@@ -22,16 +22,19 @@ typedef struct {
     Real u, v, w, determinant;
 } TriangleEdges;
 
-/// Corners a, b, c relative to the ray's origin, axes renamed. Watertight: a ray at a shared edge
-/// or vertex is inside at least one of the neighbours, for any mesh, since the signs are exact.
-FN TriangleEdges triangle_edges(vec3 a, vec3 b, vec3 c, RayShear ray) {
-    Real ax = fmaR(-ray.shear_x, a.z, a.x), ay = fmaR(-ray.shear_y, a.z, a.y);
-    Real bx = fmaR(-ray.shear_x, b.z, b.x), by = fmaR(-ray.shear_y, b.z, b.y);
-    Real cx = fmaR(-ray.shear_x, c.z, c.x), cy = fmaR(-ray.shear_y, c.z, c.y);
+/// A corner relative to the ray's origin, axes renamed, as it is when the ray is the z axis; z is
+/// not divided by the ray's length.
+FN vec3 shear_corner(vec3 p, RayShear ray) {
+    return v3(fmaR(-ray.shear_x, p.z, p.x), fmaR(-ray.shear_y, p.z, p.y), p.z);
+}
+
+/// Sheared corners a, b, c. Watertight: a ray at a shared edge or vertex is inside at least one of
+/// the neighbours, for any mesh, since the signs are exact.
+FN TriangleEdges triangle_edges(vec3 a, vec3 b, vec3 c) {
     TriangleEdges e;
-    e.u = difference_of_products(cx, by, cy, bx);
-    e.v = difference_of_products(ax, cy, ay, cx);
-    e.w = difference_of_products(bx, ay, by, ax);
+    e.u = difference_of_products(c.x, b.y, c.y, b.x);
+    e.v = difference_of_products(a.x, c.y, a.y, c.x);
+    e.w = difference_of_products(b.x, a.y, b.y, a.x);
     e.determinant = e.u + e.v + e.w;
     Mask left = (e.u >= R(0.)) & (e.v >= R(0.)) & (e.w >= R(0.));
     Mask right = (e.u <= R(0.)) & (e.v <= R(0.)) & (e.w <= R(0.));
@@ -39,7 +42,8 @@ FN TriangleEdges triangle_edges(vec3 a, vec3 b, vec3 c, RayShear ray) {
     return e;
 }
 
-/// Where the ray meets the plane of a triangle that it is inside of; t in ]0, t_max].
+/// Where the ray meets the plane of a triangle (sheared corners) that it is inside of; t in ]0,
+/// t_max].
 FN Intersection triangle_distance(TriangleEdges e, vec3 a, vec3 b, vec3 c, RayShear ray,
                                   Real t_max) {
     // Barycentrics first: the product of three lengths would need more exponents than there are.
@@ -53,14 +57,14 @@ FN Intersection triangle_distance(TriangleEdges e, vec3 a, vec3 b, vec3 c, RaySh
     return i;
 }
 
-/// The watertight triangle test: corners as for triangle_edges; t in ]0, t_max].
+/// The watertight triangle test: corners as for shear_corner; t in ]0, t_max].
 FN Intersection intersect_triangle(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max) {
-    return triangle_distance(triangle_edges(a, b, c, ray), a, b, c, ray, t_max);
+    a = shear_corner(a, ray), b = shear_corner(b, ray), c = shear_corner(c, ray);
+    return triangle_distance(triangle_edges(a, b, c), a, b, c, ray, t_max);
 }
 
-/// Whether intersect_triangle hits, but for the rounding of t at both ends: without a division.
-FN Mask triangle_blocks(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max) {
-    TriangleEdges e = triangle_edges(a, b, c, ray);
+/// Whether triangle_distance hits, but for the rounding of t at both ends: without a division.
+FN Mask triangle_blocks(TriangleEdges e, vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max) {
     // In units of the ray's own length, so that only two lengths are multiplied.
     Real az = ray.shear_z * a.z, bz = ray.shear_z * b.z, cz = ray.shear_z * c.z;
     Real t = copysignR(R(1.), e.determinant) * (e.u * az + e.v * bz + e.w * cz);

@@ -42,6 +42,8 @@ int8 BUILTIN min(int8, int8);
 BUILTINS_OF_WIDTH()
 BUILTINS_OF_WIDTH(8)
 BUILTINS_OF_WIDTH(16)
+float8 BUILTIN shuffle2(float8, float8, uint8);
+float16 BUILTIN shuffle(float16, uint16);
 #endif
 
 // The x86 intrinsics have a portable twin each; PORTABLE switches them off so that the twins can be

@@ -102,20 +102,41 @@ LAYOUT(FilterBin, 8);
 #define BVH_STACK 512 // children that may wait while a ray walks the tree; the builder keeps to it
 
 // Children's boxes as rows of 16: low x, high x, low y, high y, low z, high z. An absent child's box is empty
-// (low = +inf, high = -inf). child >= 0: a node; child < 0: ~((leaf << 2) | geometry kind).
+// (low = +inf, high = -inf). child >= 0: a node; child < 0: ~((line << 2) | form), a leaf from that line of the leaves on, whose
+// form is BVH_PATCH or the geometry kind of a BvhLeaf.
 typedef struct {
     float bounds[6][BVH_WIDTH];
     int child[BVH_WIDTH];
 } BvhNode;
 LAYOUT(BvhNode, 448);
 
-// Up to 16 primitives of one kind, rows ax ay az bx by bz cx cy cz. Absent ones are all zero (a triangle of no area) with
-// primitive -1. A sphere has its radius in row bx.
+// Leaves are of two sizes, so that they are counted in lines of a cache.
+typedef struct {
+    int words[16];
+} BvhLine;
+LAYOUT(BvhLine, 64);
+
+// Up to 16 primitives of one kind, rows ax ay az bx by bz cx cy cz. Absent ones are all zero (nothing of no size is ever hit)
+// with primitive -1. A sphere has its radius in row bx.
 typedef struct {
     float rows[9][BVH_WIDTH];
     int primitive[BVH_WIDTH];
 } BvhLeaf;
 LAYOUT(BvhLeaf, 640);
+
+// Up to 16 triangles that have no more than 16 corners between them, as in nearly all leaves of a mesh: x, y, z of the corners,
+// and a word a triangle. Its bits 0 to 11 are its corners, 4 bits each (all 0: absent); bits 12 to 30 its number as
+// a primitive, less a base; bit 31 of word k is bit k of base >> BVH_PATCH_BASE.
+typedef struct {
+    int triangle[BVH_WIDTH];
+    float corner[3][BVH_WIDTH];
+} BvhPatch;
+LAYOUT(BvhPatch, 256);
+
+#define BVH_PATCH 3 // beside the geometry kinds 0 to 2
+#define BVH_PATCH_CORNERS 12
+#define BVH_PATCH_NUMBERS 19
+#define BVH_PATCH_BASE 13
 
 // --------------------------------------------------------------------------------------------------- camera
 // A ray through the pixel position (x, y), in pixels from the top left corner of the full film:

@@ -40,7 +40,7 @@ public:
     void upload(const Bvh& bvh, int root) {
         nodes_ = Buffer<BvhNode>(d_.context, d_.queue, "nodes", bvh.nodes.data(), bvh.nodes.size());
         leaves_ =
-            Buffer<BvhLeaf>(d_.context, d_.queue, "leaves", bvh.leaves.data(), bvh.leaves.size());
+            Buffer<BvhLine>(d_.context, d_.queue, "leaves", bvh.leaves.data(), bvh.leaves.size());
         root_ = root;
     }
 
@@ -140,7 +140,7 @@ private:
         Buffer<ulong> statistics =
             device_copy(d_, "statistics", std::vector<ulong>(statistic_count * s.segments));
         const Buffer<BvhNode>& bvh_nodes = nodes_;
-        const Buffer<BvhLeaf>& bvh_leaves = leaves_;
+        const Buffer<BvhLine>& bvh_leaves = leaves_;
         // Not read by these kernels.
         Buffer<int> primitives, vertices, materials, lights, light_nodes, light_leaves,
             filter_table, filter_values, film;
@@ -164,7 +164,7 @@ private:
     const TestDevice& d_;
     Program packets_, streams_;
     Buffer<BvhNode> nodes_;
-    Buffer<BvhLeaf> leaves_;
+    Buffer<BvhLine> leaves_;
     int root_ = 0;
 };
 

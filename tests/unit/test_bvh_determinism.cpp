@@ -29,7 +29,7 @@ bool same_bits(const Tree& a, const Tree& b) {
     return a.root == b.root && nodes.size() == b.bvh.nodes.size() &&
            leaves.size() == b.bvh.leaves.size() &&
            std::memcmp(nodes.data(), b.bvh.nodes.data(), nodes.size() * sizeof(BvhNode)) == 0 &&
-           std::memcmp(leaves.data(), b.bvh.leaves.data(), leaves.size() * sizeof(BvhLeaf)) == 0;
+           std::memcmp(leaves.data(), b.bvh.leaves.data(), leaves.size() * sizeof(BvhLine)) == 0;
 }
 
 } // namespace

@@ -30,7 +30,7 @@ struct Bounds {
 /// What the tree says of itself, gathered by going through all of it.
 struct Survey {
     std::vector<int> seen; ///< how often each primitive stands in a leaf
-    std::size_t nodes = 0, leaves = 0, used_places = 0;
+    std::size_t nodes = 0, leaves = 0, lines = 0, used_places = 0;
     int depth = 0, stack_entries = 0;
     int loose_boxes = 0, wrong_kinds = 0, wrong_columns = 0, gaps = 0;
 };
@@ -71,15 +71,16 @@ public:
 
 private:
     Bounds visit(int child, int depth, int waiting) {
-        return child < 0 ? visit_leaf(~child) : visit_node(child, depth, waiting);
+        return child < 0 ? visit_leaf(child) : visit_node(child, depth, waiting);
     }
 
-    Bounds visit_leaf(int code) {
-        const BvhLeaf& leaf = bvh_.leaves.at(std::size_t(code >> 2));
+    Bounds visit_leaf(int child) {
+        Leaf leaf = read_leaf(bvh_, child);
         survey_.leaves++;
+        survey_.lines += std::size_t(leaf.lines);
         Bounds all;
-        for (int k = 0; k < BVH_WIDTH; k++) {
-            std::array<float, 9> column = leaf_column(leaf, k);
+        for (std::size_t k = 0; k < BVH_WIDTH; k++) {
+            const std::array<float, 9>& column = leaf.column[k];
             if (leaf.primitive[k] < 0) {
                 survey_.wrong_columns += column != std::array<float, 9>{};
                 continue;
@@ -88,7 +89,7 @@ private:
             survey_.used_places++;
             const PrimitiveRecord& p = primitives_.at(std::size_t(leaf.primitive[k]));
             survey_.seen[std::size_t(leaf.primitive[k])]++;
-            survey_.wrong_kinds += kind_of(p) != (code & 3);
+            survey_.wrong_kinds += kind_of(p) != leaf.kind;
             survey_.wrong_columns += column != column_of(p);
             Bounds b = inner_bounds(p);
             all.grow(b.low);
@@ -138,10 +139,10 @@ Survey check_tree(const Primitives& primitives, int stack_limit = BVH_STACK) {
     CHECK(survey.wrong_columns == 0);
     CHECK(survey.gaps == 0);
     CHECK(survey.nodes == bvh.nodes.size());
-    CHECK(survey.leaves == bvh.leaves.size());
+    CHECK(survey.lines == bvh.leaves.size());
     CHECK(survey.nodes == statistics.node_count);
     CHECK(survey.leaves == statistics.leaf_count);
-    CHECK(statistics.bytes == survey.nodes * sizeof(BvhNode) + survey.leaves * sizeof(BvhLeaf));
+    CHECK(statistics.bytes == survey.nodes * sizeof(BvhNode) + survey.lines * sizeof(BvhLine));
     CHECK(statistics.leaf_fill == Approx(double(survey.used_places) / double(16 * survey.leaves)));
     CHECK(survey.depth == statistics.depth);
     CHECK(survey.stack_entries == statistics.stack_entries);
@@ -202,16 +203,54 @@ TEST_CASE("A tree over a subset leaves the other primitives and the trees before
     Bvh bvh;
     BvhStatistics statistics;
     int all_root = bvh_append(bvh, primitives);
-    std::size_t nodes = bvh.nodes.size(), leaves = bvh.leaves.size();
+    std::size_t nodes = bvh.nodes.size();
     int odd_root = bvh_append(bvh, primitives, odd, &statistics);
     CHECK(bvh.nodes.size() == nodes + statistics.node_count);
-    CHECK(bvh.leaves.size() == leaves + statistics.leaf_count);
     Survey both[] = {Surveyor(bvh, primitives).run(all_root),
                      Surveyor(bvh, primitives).run(odd_root)};
     for (int i = 0; i < 3000; i++)
         REQUIRE((both[0].seen[i] == 1 && both[1].seen[i] == i % 2));
     CHECK(both[0].loose_boxes + both[0].wrong_kinds + both[1].loose_boxes + both[1].wrong_kinds ==
           0);
+}
+
+TEST_CASE("Leaves of a mesh are patches, in half the lines; what does not fit one is a leaf",
+          "[bvh]") {
+    auto lines_a_leaf = [](const Primitives& primitives) {
+        Survey survey = check_tree(primitives);
+        return double(survey.lines) / double(survey.leaves);
+    };
+    constexpr double patch = double(sizeof(BvhPatch)) / sizeof(BvhLine);
+    constexpr double whole = double(sizeof(BvhLeaf)) / sizeof(BvhLine);
+    CHECK(lines_a_leaf(grid(100, 0)) < patch + .3 * (whole - patch));
+    CHECK(lines_a_leaf(subdivided_sphere(4, 1, {0, 0, 0})) < patch + .3 * (whole - patch));
+    CHECK(lines_a_leaf(random_triangles(16, 1)) == whole);
+    CHECK(lines_a_leaf(repeated(random_triangles(1, 1), 16)) == patch);
+    CHECK(lines_a_leaf(random_mixture(3)) == Approx((patch + 2 * whole) / 3));
+    // A triangle of one point thrice reads as absent in a patch.
+    CHECK(lines_a_leaf({triangle({1, 2, 3}, {1, 2, 3}, {1, 2, 3})}) == whole);
+}
+
+TEST_CASE("Numbers too far apart for a patch, or as high as there are, stay what they are",
+          "[bvh]") {
+    Primitives primitives(std::size_t{1} << 21, triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+    int highest = int(primitives.size()) - 1, apart = 1 << BVH_PATCH_NUMBERS;
+    struct Case {
+        int first, second;
+        bool patch;
+    };
+    for (const Case& c :
+         {Case{0, apart - 1, true}, Case{0, apart, false}, Case{highest - 5, highest, true},
+          Case{8191, apart, false}, Case{8192, apart, true}, Case{0, highest, false}}) {
+        CAPTURE(c.first, c.second);
+        Bvh bvh;
+        int numbers[] = {c.second, c.first};
+        Leaf leaf = read_leaf(bvh, bvh_append(bvh, primitives, numbers));
+        CHECK((leaf.lines == sizeof(BvhPatch) / sizeof(BvhLine)) == c.patch);
+        CHECK(leaf.primitive[0] == c.second);
+        CHECK(leaf.primitive[1] == c.first);
+        CHECK(leaf.primitive[2] == -1);
+    }
 }
 
 TEST_CASE("A tree of nothing is a node of empty boxes", "[bvh]") {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <span>
 #include <vector>
@@ -91,11 +92,45 @@ inline Hit brute_force(std::span<const PrimitiveRecord> primitives, const Ray& r
     return hit;
 }
 
-inline std::array<float, 9> leaf_column(const BvhLeaf& leaf, int place) {
-    std::array<float, 9> column;
-    for (std::size_t row = 0; row < 9; row++)
-        column[row] = leaf.rows[row][place];
-    return column;
+/// A leaf of either form, read back; absent places are zero, with primitive -1.
+struct Leaf {
+    int kind, lines;
+    std::array<std::array<float, 9>, BVH_WIDTH> column{};
+    std::array<int, BVH_WIDTH> primitive;
+};
+
+inline Leaf read_patch(const BvhPatch& patch) {
+    Leaf leaf{geometry_triangle, sizeof(BvhPatch) / sizeof(BvhLine), {}, {}};
+    int base = 0;
+    for (int k = 0; k < BVH_WIDTH; k++)
+        base |= (patch.triangle[k] < 0) << (k + BVH_PATCH_BASE);
+    for (std::size_t k = 0; k < BVH_WIDTH; k++) {
+        int word = patch.triangle[k] & 0x7fffffff;
+        bool absent = word % (1 << BVH_PATCH_CORNERS) == 0;
+        leaf.primitive[k] = absent ? -1 : base + (word >> BVH_PATCH_CORNERS);
+        for (std::size_t i = 0; i < 9 && !absent; i++)
+            leaf.column[k][i] = patch.corner[i % 3][(word >> (4 * (i / 3))) & 15];
+    }
+    return leaf;
+}
+
+inline Leaf read_leaf(const Bvh& bvh, int child) {
+    int line = ~child >> 2, form = ~child & 3;
+    const BvhLine* lines = &bvh.leaves.at(std::size_t(line));
+    if (form == BVH_PATCH) {
+        BvhPatch patch;
+        std::memcpy(&patch, lines, sizeof patch);
+        return read_patch(patch);
+    }
+    BvhLeaf stored;
+    std::memcpy(&stored, lines, sizeof stored);
+    Leaf leaf{form, sizeof(BvhLeaf) / sizeof(BvhLine), {}, {}};
+    for (std::size_t k = 0; k < BVH_WIDTH; k++) {
+        leaf.primitive[k] = stored.primitive[k];
+        for (std::size_t row = 0; row < 9; row++)
+            leaf.column[k][row] = stored.rows[row][k];
+    }
+    return leaf;
 }
 
 /// Whether the ray meets the box of child k before t_max, as node_overlap does; and where it
@@ -129,11 +164,10 @@ inline Hit walk(const Bvh& bvh, int root, const Ray& ray, std::size_t* peak = nu
         stack.pop_back();
         if (current.entry > hit.t * float(HIT_WIDENING)) continue;
         if (current.child < 0) {
-            int code = ~current.child;
-            const BvhLeaf& leaf = bvh.leaves[std::size_t(code >> 2)];
-            for (int k = 0; k < BVH_WIDTH; k++)
+            Leaf leaf = read_leaf(bvh, current.child);
+            for (std::size_t k = 0; k < BVH_WIDTH; k++)
                 if (leaf.primitive[k] >= 0)
-                    take(hit, intersect(code & 3, leaf_column(leaf, k), ready, hit.t),
+                    take(hit, intersect(leaf.kind, leaf.column[k], ready, hit.t),
                          leaf.primitive[k]);
             continue;
         }

@@ -20,6 +20,8 @@
             LAYOUT_FIELD(FilterBin, x) LAYOUT_FIELD(FilterBin, weight) LAYOUT_TYPE(BvhNode)        \
                 LAYOUT_FIELD(BvhNode, bounds) LAYOUT_FIELD(BvhNode, child) LAYOUT_TYPE(BvhLeaf)    \
                     LAYOUT_FIELD(BvhLeaf, rows) LAYOUT_FIELD(BvhLeaf, primitive)                   \
+                    LAYOUT_TYPE(BvhLine) LAYOUT_FIELD(BvhLine, words) LAYOUT_TYPE(BvhPatch)        \
+                    LAYOUT_FIELD(BvhPatch, triangle) LAYOUT_FIELD(BvhPatch, corner)                \
                         LAYOUT_TYPE(CameraRecord) CAMERA_FIELDS(CAMERA_LAYOUT)                     \
                             LAYOUT_TYPE(RenderParams) LAYOUT_FIELD(RenderParams, camera)           \
                                 RENDER_FIELDS(RENDER_LAYOUT)                                       \

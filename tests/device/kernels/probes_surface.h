@@ -27,7 +27,10 @@ FN ProbeOut probe_triangle_blocks(ProbeIn i) {
     shear.shear_x = i.w[9] * R(.01);
     shear.shear_y = i.w[10] * R(.01);
     shear.shear_z = i.w[11];
-    return out1(mask_word(triangle_blocks(in3(i, 0), in3(i, 3), in3(i, 6), shear, absR(i.w[12]))));
+    vec3 a = shear_corner(in3(i, 0), shear), b = shear_corner(in3(i, 3), shear),
+         c = shear_corner(in3(i, 6), shear);
+    TriangleEdges e = triangle_edges(a, b, c);
+    return out1(mask_word(triangle_blocks(e, a, b, c, shear, absR(i.w[12]))));
 }
 FN ProbeOut probe_intersect_sphere(ProbeIn i) {
     return out_intersection(intersect_sphere(in3(i, 0), in3(i, 3), i.w[6], LANE_INFINITY));

@@ -1,0 +1,119 @@
+// Packing of up to 16 primitives into the lines of a leaf.
+#include "host/bvh/leaf_layout.h"
+
+#include "kernels/shared/features.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+
+namespace parhelion {
+namespace {
+
+static_assert(BVH_PATCH == geometry_kind_count && BVH_PATCH <= PRIMITIVE_KIND_MASK);
+
+constexpr int lines_of(std::size_t bytes) { return int(bytes / sizeof(BvhLine)); }
+
+const PrimitiveRecord& primitive_of(const Reference& reference,
+                                    std::span<const PrimitiveRecord> primitives) {
+    return primitives[std::size_t(reference.primitive())];
+}
+
+/// Corners in the order in which they are first met; those with the same bits are one.
+class CornerTable {
+public:
+    /// The corner's place; BVH_WIDTH: there is none left.
+    int place(float x, float y, float z) {
+        auto a = std::bit_cast<std::uint32_t>(x), b = std::bit_cast<std::uint32_t>(y),
+             c = std::bit_cast<std::uint32_t>(z);
+        for (int i = 0; i < count_; i++)
+            if (x_[i] == a && y_[i] == b && z_[i] == c) return i;
+        if (count_ == BVH_WIDTH) return BVH_WIDTH;
+        x_[count_] = a, y_[count_] = b, z_[count_] = c;
+        return count_++;
+    }
+
+    void write(BvhPatch& patch) const {
+        std::memcpy(patch.corner[0], x_, sizeof x_);
+        std::memcpy(patch.corner[1], y_, sizeof y_);
+        std::memcpy(patch.corner[2], z_, sizeof z_);
+    }
+
+private:
+    int count_ = 0;
+    std::uint32_t x_[BVH_WIDTH]{}, y_[BVH_WIDTH]{}, z_[BVH_WIDTH]{};
+};
+
+/// The corners of a triangle as a patch has them; nothing where they do not fit, or are one point,
+/// which would read as absent.
+std::optional<std::uint32_t> corner_bits(const PrimitiveRecord& p, CornerTable& corners) {
+    int a = corners.place(p.ax, p.ay, p.az), b = corners.place(p.bx, p.by, p.bz),
+        c = corners.place(p.cx, p.cy, p.cz);
+    if (std::max({a, b, c}) == BVH_WIDTH || (a == b && b == c)) return std::nullopt;
+    return std::uint32_t(a | b << 4 | c << 8);
+}
+
+std::optional<BvhPatch> make_patch(std::span<const Reference> references,
+                                   std::span<const PrimitiveRecord> primitives) {
+    if (references.front().kind() != geometry_triangle) return std::nullopt;
+    auto [lowest, highest] =
+        std::minmax_element(references.begin(), references.end(),
+                            [](auto& a, auto& b) { return a.primitive() < b.primitive(); });
+    auto base = std::uint32_t(lowest->primitive()) >> BVH_PATCH_BASE;
+    auto first = int(base << BVH_PATCH_BASE);
+    if (highest->primitive() - first >= 1 << BVH_PATCH_NUMBERS) return std::nullopt;
+    BvhPatch patch{};
+    CornerTable corners;
+    for (std::size_t k = 0; k < BVH_WIDTH; k++) {
+        std::uint32_t word = (base >> k & 1) << 31;
+        if (k < references.size()) {
+            auto bits = corner_bits(primitive_of(references[k], primitives), corners);
+            if (!bits) return std::nullopt;
+            word |= *bits | std::uint32_t(references[k].primitive() - first) << BVH_PATCH_CORNERS;
+        }
+        patch.triangle[k] = int(word);
+    }
+    corners.write(patch);
+    return patch;
+}
+
+std::array<float, 9> leaf_column(const PrimitiveRecord& p) {
+    if (geometry_kind(p) == geometry_sphere) return {p.ax, p.ay, p.az, p.extra};
+    return {p.ax, p.ay, p.az, p.bx, p.by, p.bz, p.cx, p.cy, p.cz};
+}
+
+BvhLeaf make_leaf(std::span<const Reference> references,
+                  std::span<const PrimitiveRecord> primitives) {
+    BvhLeaf leaf{};
+    std::fill_n(leaf.primitive, BVH_WIDTH, -1);
+    for (std::size_t i = 0; i < references.size(); i++) {
+        std::array<float, 9> column = leaf_column(primitive_of(references[i], primitives));
+        for (std::size_t row = 0; row < column.size(); row++)
+            leaf.rows[row][i] = column[row];
+        leaf.primitive[i] = references[i].primitive();
+    }
+    return leaf;
+}
+
+template<class Leaf>
+int put(Bvh& bvh, int line, const Leaf& leaf, int form) {
+    std::memcpy(static_cast<void*>(&bvh.leaves[std::size_t(line)]), &leaf, sizeof leaf);
+    return ~((line << 2) | form);
+}
+
+} // namespace
+
+int leaf_lines(std::span<const Reference> references, std::span<const PrimitiveRecord> primitives) {
+    return lines_of(make_patch(references, primitives) ? sizeof(BvhPatch) : sizeof(BvhLeaf));
+}
+
+int write_leaf(Bvh& bvh, int line, std::span<const Reference> references,
+               std::span<const PrimitiveRecord> primitives) {
+    if (auto patch = make_patch(references, primitives)) return put(bvh, line, *patch, BVH_PATCH);
+    return put(bvh, line, make_leaf(references, primitives), references.front().kind());
+}
+
+} // namespace parhelion

@@ -1,0 +1,19 @@
+// Packing of up to 16 primitives into the lines of a leaf.
+#pragma once
+
+#include "host/bvh/bounds.h"
+#include "host/bvh/bvh.h"
+
+#include <span>
+
+namespace parhelion {
+
+/// Lines that a leaf over these references, all of one kind, takes: those of a BvhPatch where the
+/// triangles share corners enough and their numbers lie close together, else of a BvhLeaf.
+int leaf_lines(std::span<const Reference> references, std::span<const PrimitiveRecord> primitives);
+
+/// Writes the leaf to the lines from `line` on; returns its child code.
+int write_leaf(Bvh& bvh, int line, std::span<const Reference> references,
+               std::span<const PrimitiveRecord> primitives);
+
+} // namespace parhelion

@@ -1,0 +1,123 @@
+// One ray against the primitives of a leaf, LANES of them at a time.
+
+#include "device/traversal_ray.h"
+
+#define LANE_GROUPS (BVH_WIDTH / LANES)
+
+// Where a leaf's child code says that it is, and its form there.
+#define LEAF_FORM(code) (~(code)&3)
+FN global const BvhLine* leaf_at(global const BvhLine* leaves, int code) {
+    return leaves + (~code >> 2);
+}
+
+#define LEAF_ROW(row) LOAD_REAL(leaf->rows[row] + group * LANES)
+
+/// Corners are sheared. For any hit only whether there is one. `rarely`: most often no lane is
+/// inside the triangle, so that a branch pays.
+FN Intersection triangle_hit(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max, int any_hit,
+                             int rarely) {
+    Intersection i;
+    i.t = i.b1 = i.b2 = R(0.);
+    TriangleEdges e = triangle_edges(a, b, c);
+    if (any_hit) {
+        i.hit = triangle_blocks(e, a, b, c, ray, t_max);
+        return i;
+    }
+    i.hit = e.inside;
+    if (rarely && !someLane(e.inside)) return i;
+    return triangle_distance(e, a, b, c, ray, t_max);
+}
+
+/// A corner whose coordinates are already in the order of the ray's axes.
+FN vec3 single_corner(vec3 p, const TraversalRay* ray, RayShear shear) {
+    vec3 o = v3((Real)ray->origin[ray->axis[0]], (Real)ray->origin[ray->axis[1]],
+                (Real)ray->origin[ray->axis[2]]);
+    return shear_corner(sub3(p, o), shear);
+}
+
+FN RayShear single_shear(const TraversalRay* ray) {
+    RayShear shear;
+    shear.shear_x = (Real)ray->shear[0];
+    shear.shear_y = (Real)ray->shear[1];
+    shear.shear_z = (Real)ray->shear[2];
+    return shear;
+}
+
+FN Intersection leaf_triangles(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
+                               float t_max, int any_hit) {
+    int x = ray->axis[0], y = ray->axis[1], z = ray->axis[2];
+    RayShear shear = single_shear(ray);
+#define LEAF_CORNER(first)                                                                         \
+    single_corner(v3(LEAF_ROW(first + x), LEAF_ROW(first + y), LEAF_ROW(first + z)), ray, shear)
+    return triangle_hit(LEAF_CORNER(0), LEAF_CORNER(3), LEAF_CORNER(6), shear, (Real)t_max, any_hit,
+                        0);
+}
+
+/// The corners of a patch as the ray sees them.
+typedef struct {
+    Table x, y, z;
+} PatchCorners;
+
+FN void patch_corners(global const BvhPatch* patch, const TraversalRay* ray, PatchCorners* c) {
+    RayShear shear = single_shear(ray);
+    for (int part = 0; part < TABLE_PARTS; part++) {
+#define PATCH_ROW(axis_) LOAD_REAL(patch->corner[ray->axis[axis_]] + part * LANES)
+        vec3 p = single_corner(v3(PATCH_ROW(0), PATCH_ROW(1), PATCH_ROW(2)), ray, shear);
+        c->x.part[part] = p.x, c->y.part[part] = p.y, c->z.part[part] = p.z;
+    }
+}
+
+FN vec3 patch_corner(const PatchCorners* c, Int place) {
+    return v3(look_up(&c->x, place), look_up(&c->y, place), look_up(&c->z, place));
+}
+
+FN Intersection patch_triangles(global const BvhPatch* patch, const PatchCorners* corners,
+                                int group, const TraversalRay* ray, float t_max, int any_hit) {
+    Int places = LOAD_INT(patch->triangle + group * LANES);
+    return triangle_hit(patch_corner(corners, places), patch_corner(corners, places >> 4),
+                        patch_corner(corners, places >> 8), single_shear(ray), (Real)t_max, any_hit,
+                        0);
+}
+
+/// What the numbers of a patch's triangles count from.
+FN int patch_base(global const BvhPatch* patch) {
+    uint bits = 0;
+    for (int group = 0; group < LANE_GROUPS; group++)
+        bits |= maskBits(LOAD_INT(patch->triangle + group * LANES) < 0) << (group * LANES);
+    return (int)(bits << BVH_PATCH_BASE);
+}
+
+FN int patch_number(global const BvhPatch* patch, int base, int k) {
+    return base + ((patch->triangle[k] >> BVH_PATCH_CORNERS) & ((1 << BVH_PATCH_NUMBERS) - 1));
+}
+
+FN vec3 splat_ray(const float* v) { return v3((Real)v[0], (Real)v[1], (Real)v[2]); }
+
+FN Intersection leaf_spheres(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
+                             float t_max) {
+    vec3 centre = v3(LEAF_ROW(0), LEAF_ROW(1), LEAF_ROW(2));
+    return intersect_sphere(sub3(splat_ray(ray->origin), centre), splat_ray(ray->direction),
+                            LEAF_ROW(3), (Real)t_max);
+}
+
+FN Intersection leaf_disks(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
+                           float t_max) {
+    vec3 centre = v3(LEAF_ROW(0), LEAF_ROW(1), LEAF_ROW(2));
+    vec3 edge_u = v3(LEAF_ROW(3), LEAF_ROW(4), LEAF_ROW(5)),
+         edge_v = v3(LEAF_ROW(6), LEAF_ROW(7), LEAF_ROW(8));
+    return intersect_disk(sub3(centre, splat_ray(ray->origin)), splat_ray(ray->direction), edge_u,
+                          edge_v, (Real)t_max);
+}
+
+FN Intersection leaf_group(global const BvhLeaf* leaf, int kind, int group, const TraversalRay* ray,
+                           float t_max, int any_hit) {
+    if (HAS(shape_sphere) && kind == geometry_sphere) return leaf_spheres(leaf, group, ray, t_max);
+    if (HAS(shape_disk) && kind == geometry_disk) return leaf_disks(leaf, group, ray, t_max);
+    return leaf_triangles(leaf, group, ray, t_max, any_hit);
+}
+
+FN int leaf_number(global const BvhLine* leaf, int form, int k) {
+    global const BvhPatch* patch = (global const BvhPatch*)leaf;
+    if (form == BVH_PATCH) return patch_number(patch, patch_base(patch), k);
+    return ((global const BvhLeaf*)leaf)->primitive[k];
+}
