@@ -74,14 +74,20 @@ std::vector<std::string> own_command(const Device& device, ProgramGroup group,
                                      const StageOptions& options) {
     std::vector<std::string> features = feature_names(options.features);
     if (features.empty()) features = {no_feature};
-    std::vector<std::string> command{
-        "/proc/self/exe",    "compile",
-        "--quiet", // this program, wherever it now is
-        "--program",         program_group_names[static_cast<std::size_t>(group)],
-        "--features",        fmt::format("{}", fmt::join(features, ",")),
-        "--device",          std::to_string(device.index),
-        "--lanes",           std::to_string(options.lanes),
-        "--work-group-size", std::to_string(options.work_group_size)};
+    constexpr const char* this_program = "/proc/self/exe";
+    std::vector<std::string> command{this_program,
+                                     "compile",
+                                     "--quiet",
+                                     "--program",
+                                     program_group_names[static_cast<std::size_t>(group)],
+                                     "--features",
+                                     fmt::format("{}", fmt::join(features, ",")),
+                                     "--device",
+                                     std::to_string(device.index),
+                                     "--lanes",
+                                     std::to_string(options.lanes),
+                                     "--work-group-size",
+                                     std::to_string(options.work_group_size)};
     if (options.portable) command.emplace_back("--portable");
     return command;
 }
