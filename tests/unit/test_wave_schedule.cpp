@@ -14,6 +14,7 @@ TEST_CASE("Wave schedule: every sample of every block once, a block's samples in
         std::vector<int> sampled(blocks); // samples so far: two threads never have the same block
         std::vector<int> disorder(threads);
         std::vector<std::thread> running;
+        running.reserve(threads);
         for (int t = 0; t < threads; t++)
             running.emplace_back([&, t] {
                 while (auto wave = schedule.take()) {
