@@ -68,7 +68,8 @@ def render(result, table, plots):
 def compile(result, table, plots):  # named as the subcommand
     steps = ["load", "bvh", "compile", "upload", "render", "write"]
     rows = [(f"{s['name']}, {kind}", s[kind]["process_seconds"], s[kind]["peak_bytes"] / 1e6,
-             s[kind]["compiler_peak_bytes"] / 1e6, *(s[kind][step] for step in steps)) for s in result["scenes"] for kind in ("cold", "warm")]
+             s[kind]["compiler_peak_bytes"] / 1e6, *(s[kind][step] for step in steps))
+            for s in result["scenes"] for kind in ("cold", "warm")]
     drawing = svg.bars("seconds to a 1-spp image", "seconds",
                        [(s["name"], [s["cold"]["process_seconds"], s["warm"]["process_seconds"]])
                         for s in result["scenes"]], ["cold", "warm"])

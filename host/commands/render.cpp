@@ -84,26 +84,35 @@ std::vector<Option> image_options(RenderCommand& c) {
     };
 }
 
-constexpr const char* split_group = "How work is split (the image stays the same to the bit)";
+std::vector<Option> of_split(std::vector<Option> options) {
+    for (Option& option : options)
+        option.rules.group = "How work is split (the image stays the same to the bit)";
+    return options;
+}
 
 std::vector<Option> pool_options(RenderCommand& c) {
-    return {
-        {"--pool-paths", &c.options.split.pool_paths, "Paths in flight", {.group = split_group}},
-        {"--segment-paths",
-         &c.options.split.segment_paths,
-         "Paths a work-item owns",
-         {.group = split_group}},
-        {"--streams",
-         &c.options.split.streams,
-         "Waves under way at once, which share the pool; 0 for what suits the device",
-         {.group = split_group}},
-    };
+    return of_split({
+        {"--pool-paths", &c.options.split.pool_paths, "Paths in flight"},
+        {"--segment-paths", &c.options.split.segment_paths, "Paths a work-item owns"},
+        {"--streams", &c.options.split.streams,
+         "Waves under way at once, which share the pool; 0 for what suits the device"},
+    });
+}
+
+std::vector<Option> program_options(RenderCommand& c) {
+    return of_split({
+        {"--work-group-size", &c.options.split.work_group_size, "Work-items in a group"},
+        {"--lanes", &c.options.lanes,
+         "Values a kernel handles at once: 1, 8, 16; 0 for the device's"},
+        {"--portable", &c.options.portable, "Kernels without x86 intrinsics"},
+        {"--all-features", &c.options.all_features, "Kernels not specialised to the scene"},
+    });
 }
 
 } // namespace
 
 std::vector<Option> kernel_options(RenderCommand& c) {
-    return {
+    std::vector<Option> options{
         {"--integrator", &c.integrator, "path, direct, normals, depth or aov"},
         {"--max-depth", &c.max_depth,
          "Longest path in edges: 1 emitters only, 2 direct light, -1 no limit"},
@@ -122,23 +131,10 @@ std::vector<Option> kernel_options(RenderCommand& c) {
         {"--device", &c.device, "Device by index or part of its name (see `parhelion devices`)"},
         {"-q,--quiet", &c.quiet, "No progress"},
         {"--allow-outside", &c.allow_outside, "Let the scene name files outside its own folder"},
-        {"--work-group-size",
-         &c.options.split.work_group_size,
-         "Work-items in a group",
-         {.group = split_group}},
-        {"--lanes",
-         &c.options.lanes,
-         "Values a kernel handles at once: 1, 8, 16; 0 for the device's",
-         {.group = split_group}},
-        {"--portable",
-         &c.options.portable,
-         "Kernels without x86 intrinsics",
-         {.group = split_group}},
-        {"--all-features",
-         &c.options.all_features,
-         "Kernels not specialised to the scene",
-         {.group = split_group}},
     };
+    for (const Option& option : program_options(c))
+        options.push_back(option);
+    return options;
 }
 
 void check_split(const RenderOptions& options) {
@@ -151,9 +147,11 @@ void check_split(const RenderOptions& options) {
     if (lanes != 0 && lanes != 1 && lanes != 8 && lanes != 16)
         throw InputError(
             fmt::format("--lanes {}: there are 1, 8 and 16 (0: what suits the device)", lanes));
-    if (options.split.streams < 0)
-        throw InputError(fmt::format("--streams {}: must be 0 (what suits the device) or more",
-                                     options.split.streams));
+    int most_streams = options.split.pool_paths / BLOCK_PIXELS;
+    if (options.split.streams < 0 || options.split.streams > most_streams)
+        throw InputError(fmt::format("--streams {}: there may be 1 to {}, each with at least {} of "
+                                     "the pool's paths (0: what suits the device)",
+                                     options.split.streams, most_streams, BLOCK_PIXELS));
 }
 
 int run_render(const RenderCommand& command) {

@@ -44,12 +44,6 @@ void set_points(PrimitiveRecord& p, const glm::dvec3& a, const glm::dvec3& b, co
     p.cx = fc.x, p.cy = fc.y, p.cz = fc.z;
 }
 
-/// 1 / |cross(u, v)| as a record keeps it: 0 where the plane of u and v is none that floats know.
-float inverse_normal_length(const glm::dvec3& u, const glm::dvec3& v) {
-    double inverse = 1.0 / glm::length(glm::cross(u, v));
-    return inverse <= double{std::numeric_limits<float>::max()} ? static_cast<float>(inverse) : 0.f;
-}
-
 VertexRecord vertex_record(const Mesh& mesh, const glm::uvec3& t) {
     VertexRecord v{};
     if (!mesh.normals.empty()) {
@@ -130,6 +124,11 @@ std::vector<int> seen_by_camera(const DeviceScene& scene) {
 }
 
 } // namespace
+
+float inverse_normal_length(const glm::dvec3& u, const glm::dvec3& v) {
+    double inverse = 1.0 / glm::length(glm::cross(u, v));
+    return inverse <= double{std::numeric_limits<float>::max()} ? static_cast<float>(inverse) : 0.f;
+}
 
 static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
     std::size_t count = primitive_count(scene);

@@ -46,6 +46,9 @@ struct DeviceScene {
 /// device's 32-bit indices.
 DeviceScene make_device_scene(const Scene& scene, LightChoice choice = LightChoice::importance);
 
+/// 1 / |cross(u, v)| as records keep it: 0 where the plane of u and v is none that floats know.
+float inverse_normal_length(const glm::dvec3& u, const glm::dvec3& v);
+
 constexpr std::uint64_t feature_bit(Feature f) { return std::uint64_t{1} << f; }
 
 /// The names of the features in a mask, in the order of the lists in kernels/shared/features.h.

@@ -74,9 +74,8 @@ Row corners_row(EmitterKind kind, const std::array<glm::dvec3, 3>& corners, bool
     set_a(row.light, a);
     set_b(row.light, swap ? c : b);
     set_c(row.light, swap ? b : c);
-    double length = glm::length(glm::cross(b - a, c - a));
-    row.area = area * 0.5 * length;
-    row.light.extra = static_cast<float>(1.0 / length);
+    row.area = area * 0.5 * glm::length(glm::cross(b - a, c - a));
+    row.light.extra = inverse_normal_length(b - a, c - a);
     return row;
 }
 
@@ -117,7 +116,7 @@ Row primitive_row(const DeviceScene& scene, int index, bool pair, const Rgb& rad
         set_b(row.light, point_b(p));
         set_c(row.light, point_c(p));
         row.area = pi * glm::length(glm::cross(point_b(p), point_c(p)));
-        row.light.extra = static_cast<float>(side * pi / row.area);
+        row.light.extra = side * inverse_normal_length(point_b(p), point_c(p));
         break;
     default:
         row =

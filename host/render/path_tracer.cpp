@@ -119,7 +119,8 @@ void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
 /// Streams for the device to choose from: two where several cores would wait for each other.
 int stream_count(const WorkSplit& split, const Device& device) {
     if (split.streams > 0) return split.streams;
-    return device.is_cpu && device.compute_units > 1 ? 2 : 1;
+    return device.is_cpu && device.compute_units > 1 && split.pool_paths >= 2 * BLOCK_PIXELS ? 2
+                                                                                             : 1;
 }
 
 void add_counts(const std::array<std::uint64_t, statistic_count>& statistics,

@@ -144,7 +144,7 @@ StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
     }
     for (std::size_t i = 0; i < stage_count; i++) {
         const Compiled& c = compiled[static_cast<std::size_t>(stage_groups[i])];
-        result.kernels.push_back(c.program.kernel(stage_names[i]));
+        result.programs.push_back(c.program);
         result.reports.push_back(stage_report(i, options, c));
     }
     return result;

@@ -10,7 +10,7 @@
 namespace parhelion {
 
 struct StagePrograms {
-    std::vector<cl::Kernel> kernels;     ///< one for each Stage
+    std::vector<Program> programs;       ///< one for each Stage; several are the same
     std::vector<StageReport> reports;    ///< likewise
     std::uint64_t beside_peak_bytes = 0; ///< of the process that compiled one of them; 0: none did
 };

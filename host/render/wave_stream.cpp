@@ -8,7 +8,8 @@
 namespace parhelion {
 namespace {
 
-/// Results have fewer channels than the film, but for the two of a sample's offset.
+/// Of a sample in its pixel, where it is splatted; else results have no more channels than the
+/// film.
 constexpr int offset_channels = 2;
 
 int rounded_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
@@ -66,9 +67,8 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
     : queue_(device.context, device.device.handle, CL_QUEUE_PROFILING_ENABLE),
       no_film_(device.context, "film", 0), work_group_size_(s.work_group_size) {
     for (std::size_t stage = 0; stage < stage_count; stage++)
-        kernels_.emplace_back(programs.kernels[stage].getInfo<CL_KERNEL_PROGRAM>(),
-                              stage_names[stage]);
-    std::size_t result_channels = s.film_channels + offset_channels;
+        kernels_.push_back(programs.programs[stage].kernel(stage_names[stage]));
+    std::size_t result_channels = s.film_channels + (s.window.reach > 0 ? offset_channels : 0);
     std::size_t counted = std::max(s.segments, s.blocks_per_wave);
     const cl::Context& context = device.context;
     work_.path_state = {context, "path_state", path_field_count * s.state_stride()};

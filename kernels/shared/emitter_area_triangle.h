@@ -1,6 +1,6 @@
 // A triangle that emits from the side its winding faces: corners a, b, c; `extra` is
-// 1 / |cross(b - a, c - a)|. Chosen uniformly by solid
-// angle, or by area where it is seen too small for that (solid_angle.h).
+// 1 / |cross(b - a, c - a)|. Chosen uniformly by solid angle, or by area where it is seen too small
+// for that (solid_angle.h).
 
 /// As seen from p; of solid angle 0 where that is not asked for, and from behind.
 FN SphericalTriangle emitter_area_triangle_seen(Light l, vec3 p) {

@@ -90,8 +90,8 @@ LAYOUT(LightRecord, 64);
 typedef struct { LIGHT_NODE_FIELDS(FIELD_DECLARE) } LightNodeRecord;
 LAYOUT(LightNodeRecord, 64);
 
-// Film. Sampling a filter: one of equally likely bins along one axis: it starts at x (pixels from the centre), ends where the
-// next one starts, and its samples have this weight (negative in a negative lobe).
+// Sampling a reconstruction filter: one of its equally likely bins along one axis. It starts at x (pixels from the centre), ends
+// where the next one starts, and its samples have this weight (negative in a negative lobe).
 typedef struct {
     float x, weight;
 } FilterBin;
