@@ -3,10 +3,12 @@
 
 #include "host/bvh/binary_tree.h"
 #include "host/bvh/collapse.h"
+#include "host/bvh/leaf_layout.h"
 #include "host/bvh/wide_layout.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
 
 namespace parhelion {
@@ -75,6 +77,15 @@ int append_timed(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::siz
     return built.root;
 }
 
+/// Around all children; those that are absent are inside out.
+Box node_box(const BvhNode& node) {
+    Box box = empty_box();
+    for (std::size_t k = 0; k < BVH_WIDTH; k++)
+        box = box_union(box, {Float4{node.bounds[0][k], node.bounds[2][k], node.bounds[4][k]},
+                              Float4{node.bounds[1][k], node.bounds[3][k], node.bounds[5][k]}});
+    return box;
+}
+
 } // namespace
 
 int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::span<const int> subset,
@@ -87,6 +98,12 @@ int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, BvhStatist
                int stack_limit) {
     auto number_of = [](std::size_t i) { return int(i); };
     return append_timed(bvh, primitives, primitives.size(), number_of, statistics, stack_limit);
+}
+
+float bvh_extent(const Bvh& bvh, int root) {
+    Box box = root < 0 ? leaf_box(bvh, root) : node_box(bvh.nodes[std::size_t(root)]);
+    Float4 sides = box.high - box.low;
+    return std::max({sides[0], sides[1], sides[2], 0.f});
 }
 
 } // namespace parhelion

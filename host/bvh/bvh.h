@@ -39,4 +39,7 @@ int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::span<
 int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives,
                BvhStatistics* statistics = nullptr, int stack_limit = BVH_STACK);
 
+/// The largest side of a box around all triangles below `root`.
+float bvh_extent(const Bvh& bvh, int root);
+
 } // namespace parhelion

@@ -104,6 +104,35 @@ int put(Bvh& bvh, int line, const Leaf& leaf, int form) {
     return ~((line << 2) | form);
 }
 
+template<class Leaf>
+Leaf get(const Bvh& bvh, int child) {
+    Leaf leaf;
+    std::memcpy(&leaf, static_cast<const void*>(&bvh.leaves[std::size_t(~child >> 2)]),
+                sizeof leaf);
+    return leaf;
+}
+
+Box around(const Box& box, Float4 p) { return box_union(box, {p, p}); }
+
+Box patch_box(const BvhPatch& patch) {
+    Box box = empty_box();
+    for (int word : patch.triangle)
+        for (int corner = 0; corner < 3 && word << (32 - BVH_PATCH_CORNERS) != 0; corner++) {
+            int k = (word >> (4 * corner)) & 15;
+            box = around(box, Float4{patch.corner[0][k], patch.corner[1][k], patch.corner[2][k]});
+        }
+    return box;
+}
+
+Box rows_box(const BvhLeaf& leaf) {
+    Box box = empty_box();
+    for (std::size_t k = 0; k < BVH_WIDTH; k++)
+        for (std::size_t row = 0; row < 9 && leaf.primitive[k] >= 0; row += 3)
+            box = around(box,
+                         Float4{leaf.rows[row][k], leaf.rows[row + 1][k], leaf.rows[row + 2][k]});
+    return box;
+}
+
 } // namespace
 
 int leaf_lines(std::span<const Reference> references, std::span<const PrimitiveRecord> primitives) {
@@ -114,6 +143,11 @@ int write_leaf(Bvh& bvh, int line, std::span<const Reference> references,
                std::span<const PrimitiveRecord> primitives) {
     if (auto patch = make_patch(references, primitives)) return put(bvh, line, *patch, BVH_PATCH);
     return put(bvh, line, make_leaf(references, primitives), references.front().kind());
+}
+
+Box leaf_box(const Bvh& bvh, int child) {
+    if ((~child & 3) == BVH_PATCH) return patch_box(get<BvhPatch>(bvh, child));
+    return rows_box(get<BvhLeaf>(bvh, child));
 }
 
 } // namespace parhelion

@@ -16,4 +16,7 @@ int leaf_lines(std::span<const Reference> references, std::span<const PrimitiveR
 int write_leaf(Bvh& bvh, int line, std::span<const Reference> references,
                std::span<const PrimitiveRecord> primitives);
 
+/// Around the corners of all triangles of a leaf, given by its child code.
+Box leaf_box(const Bvh& bvh, int child);
+
 } // namespace parhelion

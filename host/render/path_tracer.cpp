@@ -60,6 +60,7 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.aov_channels = aovs.channels;
     p.camera_root = device.camera_root;
     p.root = device.root;
+    p.extent = bvh_extent(device.bvh, device.root);
     std::fill(std::begin(p.aov_offset), std::end(p.aov_offset), -1);
     for (const AovLayer& layer : aovs.layers)
         p.aov_offset[layer.kind] = layer.channel;

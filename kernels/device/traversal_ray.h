@@ -14,7 +14,8 @@ FN vec3 rename_axes(PacketRay r, vec3 v) {
               sel(r.z_is_x, v.x, sel(r.z_is_y, v.y, v.z)));
 }
 
-FN PacketRay packet_ray(vec3 origin, vec3 direction) {
+/// `extent`: the largest side of a box around all triangles.
+FN PacketRay packet_ray(vec3 origin, vec3 direction, float extent) {
     PacketRay r;
     r.origin = origin;
     r.direction = direction;
@@ -26,17 +27,33 @@ FN PacketRay packet_ray(vec3 origin, vec3 direction) {
     r.z_is_x = (size.x > size.y) & (size.x > size.z);
     r.z_is_y = (size.x <= size.y) & (size.y > size.z);
     vec3 d = rename_axes(r, direction);
+    r.shear.origin = rename_axes(r, origin);
     r.shear.shear_x = d.x / d.z;
     r.shear.shear_y = d.y / d.z;
     r.shear.shear_z = 1.f / d.z;
+    r.shear.doubt = ray_doubt(r.shear.shear_z, (Real)extent);
     return r;
+}
+
+typedef struct {
+    Real t, b1, b2;
+    Int primitive; // NO_PRIMITIVE: nothing
+} PacketHit;
+
+/// Takes the hits of one primitive that are closer; of those at one distance the lower number wins.
+FN void packet_closer(PacketHit* hit, Intersection i, int number, Mask hits) {
+    Mask closer = hits & ((i.t < hit->t) | ((Int)number < hit->primitive));
+    hit->t = sel(closer, i.t, hit->t);
+    hit->b1 = sel(closer, i.b1, hit->b1);
+    hit->b2 = sel(closer, i.b2, hit->b2);
+    hit->primitive = sel(closer, (Int)number, hit->primitive);
 }
 
 typedef struct {
     float origin[3], direction[3], inverse[3], near_offset[3], far_offset[3];
     int near_row[3]; // rows of BvhNode::bounds met first; met last: near_row ^ 1
     int axis[3];     // x, y, z after renaming
-    float shear[3];
+    float shear[3], doubt;
 } TraversalRay;
 
 // The values of a packet that a single ray is taken from.
@@ -52,7 +69,7 @@ typedef struct {
 // clang-format on
 
 typedef struct {
-    RealLanes origin[3], direction[3], inverse[3], near_offset[3], far_offset[3], shear[3];
+    RealLanes origin[3], direction[3], inverse[3], near_offset[3], far_offset[3], shear[3], doubt;
     IntLanes largest_axis;
 } PacketLanes;
 
@@ -60,6 +77,7 @@ FN PacketLanes packet_lanes(PacketRay r) {
     PacketLanes p;
 #define STORE_WORD(name, k, value) p.name[k].lanes = value;
     PACKET_WORDS(STORE_WORD)
+    p.doubt.lanes = r.shear.doubt;
     p.largest_axis.lanes = sel(r.z_is_x, (Int)0, sel(r.z_is_y, (Int)1, (Int)2));
     return p;
 }
@@ -70,6 +88,7 @@ FN TraversalRay single_ray(const PacketLanes* p, int lane) {
     PACKET_WORDS(TAKE_WORD)
     for (int a = 0; a < 3; a++)
         r.near_row[a] = 2 * a + (r.inverse[a] < 0.f);
+    r.doubt = p->doubt.at[lane];
     int z = p->largest_axis.at[lane];
     r.axis[0] = z == 2 ? 0 : z + 1;
     r.axis[1] = z == 0 ? 2 : z - 1;

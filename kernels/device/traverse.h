@@ -4,7 +4,7 @@
 // Boxes are widened and triangles are watertight, so no hit is lost; of two hits at the same
 // distance the lower primitive number wins, so the answer does not depend on the order of the walk.
 
-#include "device/traverse_leaf.h"
+#include "device/traverse_doubt.h"
 
 // Nothing hit: a number above all others, so that of two hits at one distance the lower wins.
 #define NO_PRIMITIVE 0x7fffffff
@@ -106,7 +106,8 @@ FN int walk_node(RayWalk* w, WalkStack* stack, global const BvhNode* node, int a
 
 /// Which primitives of a leaf the ray hits before its closest hit, and where.
 typedef struct {
-    uint bits;
+    uint bits;     // with the doubtful
+    uint doubtful; // walk_take settles them
     RealLanes t[LANE_GROUPS], b1[LANE_GROUPS], b2[LANE_GROUPS];
 } LeafHits;
 
@@ -114,17 +115,18 @@ FN void leaf_hits(const RayWalk* w, global const BvhLine* leaf, int form, int an
                   LeafHits* hits) {
     PatchCorners corners;
     if (form == BVH_PATCH) patch_corners((global const BvhPatch*)leaf, &w->ray, &corners);
-    hits->bits = 0;
+    hits->bits = hits->doubtful = 0;
     for (int group = 0; group < LANE_GROUPS; group++) {
-        Intersection i = form == BVH_PATCH ? patch_triangles((global const BvhPatch*)leaf, &corners,
-                                                             group, &w->ray, w->t, any_hit)
-                                           : leaf_group((global const BvhLeaf*)leaf, form, group,
-                                                        &w->ray, w->t, any_hit);
-        hits->bits |= maskBits(i.hit) << (group * LANES);
+        TriangleHit h = form == BVH_PATCH ? patch_triangles((global const BvhPatch*)leaf, &corners,
+                                                            group, &w->ray, w->t, any_hit)
+                                          : leaf_group((global const BvhLeaf*)leaf, form, group,
+                                                       &w->ray, w->t, any_hit);
+        hits->bits |= maskBits(h.hit | h.doubtful) << (group * LANES);
+        hits->doubtful |= maskBits(h.doubtful) << (group * LANES);
         if (any_hit) continue;
-        hits->t[group].lanes = i.t;
-        hits->b1[group].lanes = i.b1;
-        hits->b2[group].lanes = i.b2;
+        hits->t[group].lanes = h.t;
+        hits->b1[group].lanes = h.b1;
+        hits->b2[group].lanes = h.b2;
     }
 }
 
@@ -134,12 +136,17 @@ FN int walk_take(RayWalk* w, global const BvhLine* leaf, int form, const LeafHit
     for (uint bits = hits->bits; bits; bits &= bits - 1) {
         int k = lowest_bit(bits), number = leaf_number(leaf, form, k);
         if (number == w->excluded) continue;
+        int group = k / LANES, lane = k % LANES;
+        float t = any_hit ? 0.f : hits->t[group].at[lane];
+        if (RARELY((hits->doubtful >> k) & 1)) {
+            TraversalRay ray = w->ray; // so that the walk itself may stay in registers
+            t = settled_distance(leaf, form, k, &ray, w->t, any_hit);
+            if (t < 0.f) continue;
+        }
         if (any_hit) {
             w->primitive = 0;
             return 1;
         }
-        int group = k / LANES, lane = k % LANES;
-        float t = hits->t[group].at[lane];
         if (t < w->t || (t == w->t && number < w->primitive)) {
             w->t = t, w->b1 = hits->b1[group].at[lane], w->b2 = hits->b2[group].at[lane];
             w->primitive = number;

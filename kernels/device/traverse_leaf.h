@@ -13,44 +13,55 @@ FN global const BvhLine* leaf_at(global const BvhLine* leaves, int code) {
 #define LEAF_ROW(row) LOAD_REAL(leaf->rows[row] + group * LANES)
 
 /// Corners are sheared. For any hit only whether there is one. `rarely`: most often no lane is
-/// inside the triangle, so that a branch pays.
-FN Intersection triangle_hit(vec3 a, vec3 b, vec3 c, RayShear ray, Real t_max, int any_hit,
-                             int rarely) {
-    Intersection i;
-    i.t = i.b1 = i.b2 = R(0.);
-    TriangleEdges e = triangle_edges(a, b, c);
-    if (any_hit) {
-        i.hit = triangle_blocks(e, a, b, c, ray, t_max);
-        return i;
+/// inside the triangle, so that a branch pays. What is doubtful the caller has settled
+/// (traverse_doubt.h).
+FN TriangleHit triangle_hit(Corners s, RayShear ray, Real t_max, int any_hit, int rarely) {
+    TriangleEdges e = triangle_edges(s);
+    if (any_hit) return triangle_blocks(e, s, ray, t_max);
+    if (rarely && !someLane(e.inside)) {
+        TriangleHit none;
+        none.hit = none.doubtful = e.inside;
+        none.t = none.b1 = none.b2 = none.volume = none.determinant = R(0.);
+        return none;
     }
-    i.hit = e.inside;
-    if (rarely && !someLane(e.inside)) return i;
-    return triangle_distance(e, a, b, c, ray, t_max);
+    return triangle_distance(e, s, ray, t_max);
+}
+
+/// A sphere or a disk, of whose hits none is doubtful.
+FN TriangleHit certain_hit(Intersection i) {
+    TriangleHit h;
+    h.hit = i.hit;
+    h.doubtful = lanesOf(0);
+    h.t = i.t, h.b1 = i.b1, h.b2 = i.b2;
+    h.volume = h.determinant = R(0.);
+    return h;
 }
 
 /// A corner whose coordinates are already in the order of the ray's axes.
-FN vec3 single_corner(vec3 p, const TraversalRay* ray, RayShear shear) {
-    vec3 o = v3((Real)ray->origin[ray->axis[0]], (Real)ray->origin[ray->axis[1]],
-                (Real)ray->origin[ray->axis[2]]);
-    return shear_corner(sub3(p, o), shear);
-}
+FN vec3 single_corner(vec3 p, RayShear shear) { return shear_corner(sub3(p, shear.origin), shear); }
 
 FN RayShear single_shear(const TraversalRay* ray) {
     RayShear shear;
+    shear.origin = v3((Real)ray->origin[ray->axis[0]], (Real)ray->origin[ray->axis[1]],
+                      (Real)ray->origin[ray->axis[2]]);
     shear.shear_x = (Real)ray->shear[0];
     shear.shear_y = (Real)ray->shear[1];
     shear.shear_z = (Real)ray->shear[2];
+    shear.doubt = (Real)ray->doubt;
     return shear;
 }
 
-FN Intersection leaf_triangles(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
-                               float t_max, int any_hit) {
+FN TriangleHit leaf_triangles(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
+                              float t_max, int any_hit) {
     int x = ray->axis[0], y = ray->axis[1], z = ray->axis[2];
     RayShear shear = single_shear(ray);
 #define LEAF_CORNER(first)                                                                         \
-    single_corner(v3(LEAF_ROW(first + x), LEAF_ROW(first + y), LEAF_ROW(first + z)), ray, shear)
-    return triangle_hit(LEAF_CORNER(0), LEAF_CORNER(3), LEAF_CORNER(6), shear, (Real)t_max, any_hit,
-                        0);
+    single_corner(v3(LEAF_ROW(first + x), LEAF_ROW(first + y), LEAF_ROW(first + z)), shear)
+    Corners s;
+    s.a = LEAF_CORNER(0);
+    s.b = LEAF_CORNER(3);
+    s.c = LEAF_CORNER(6);
+    return triangle_hit(s, shear, (Real)t_max, any_hit, 0);
 }
 
 /// The corners of a patch as the ray sees them.
@@ -62,7 +73,7 @@ FN void patch_corners(global const BvhPatch* patch, const TraversalRay* ray, Pat
     RayShear shear = single_shear(ray);
     for (int part = 0; part < TABLE_PARTS; part++) {
 #define PATCH_ROW(axis_) LOAD_REAL(patch->corner[ray->axis[axis_]] + part * LANES)
-        vec3 p = single_corner(v3(PATCH_ROW(0), PATCH_ROW(1), PATCH_ROW(2)), ray, shear);
+        vec3 p = single_corner(v3(PATCH_ROW(0), PATCH_ROW(1), PATCH_ROW(2)), shear);
         c->x.part[part] = p.x, c->y.part[part] = p.y, c->z.part[part] = p.z;
     }
 }
@@ -71,12 +82,14 @@ FN vec3 patch_corner(const PatchCorners* c, Int place) {
     return v3(look_up(&c->x, place), look_up(&c->y, place), look_up(&c->z, place));
 }
 
-FN Intersection patch_triangles(global const BvhPatch* patch, const PatchCorners* corners,
-                                int group, const TraversalRay* ray, float t_max, int any_hit) {
+FN TriangleHit patch_triangles(global const BvhPatch* patch, const PatchCorners* corners, int group,
+                               const TraversalRay* ray, float t_max, int any_hit) {
     Int places = LOAD_INT(patch->triangle + group * LANES);
-    return triangle_hit(patch_corner(corners, places), patch_corner(corners, places >> 4),
-                        patch_corner(corners, places >> 8), single_shear(ray), (Real)t_max, any_hit,
-                        0);
+    Corners s;
+    s.a = patch_corner(corners, places);
+    s.b = patch_corner(corners, places >> 4);
+    s.c = patch_corner(corners, places >> 8);
+    return triangle_hit(s, single_shear(ray), (Real)t_max, any_hit, 0);
 }
 
 /// What the numbers of a patch's triangles count from.
@@ -109,10 +122,12 @@ FN Intersection leaf_disks(global const BvhLeaf* leaf, int group, const Traversa
                           edge_v, (Real)t_max);
 }
 
-FN Intersection leaf_group(global const BvhLeaf* leaf, int kind, int group, const TraversalRay* ray,
-                           float t_max, int any_hit) {
-    if (HAS(shape_sphere) && kind == geometry_sphere) return leaf_spheres(leaf, group, ray, t_max);
-    if (HAS(shape_disk) && kind == geometry_disk) return leaf_disks(leaf, group, ray, t_max);
+FN TriangleHit leaf_group(global const BvhLeaf* leaf, int kind, int group, const TraversalRay* ray,
+                          float t_max, int any_hit) {
+    if (HAS(shape_sphere) && kind == geometry_sphere)
+        return certain_hit(leaf_spheres(leaf, group, ray, t_max));
+    if (HAS(shape_disk) && kind == geometry_disk)
+        return certain_hit(leaf_disks(leaf, group, ray, t_max));
     return leaf_triangles(leaf, group, ray, t_max, any_hit);
 }
 

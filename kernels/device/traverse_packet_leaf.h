@@ -1,12 +1,7 @@
 // A packet of rays, what its rays have in common, and the packet against the primitives of a leaf,
 // one at a time.
 
-#include "device/traverse_leaf.h"
-
-typedef struct {
-    Real t, b1, b2;
-    Int primitive; // NO_PRIMITIVE: nothing
-} PacketHit;
+#include "device/traverse_doubt.h"
 
 /// What all rays of a packet have in common: bounds of their origins and inverse directions, and
 /// whether they meet the same planes of every box first, and have their largest axis in common. Far
@@ -79,30 +74,47 @@ FN vec3 packet_corner(global const float (*rows)[BVH_WIDTH], int k, PacketRay r,
     return shear_corner(sub3(p, rename_axes(r, r.origin)), r.shear);
 }
 
-FN Intersection packet_primitive(global const BvhLeaf* leaf, int kind, int k, PacketRay r,
-                                 const PacketBounds* bounds, Real t, int any_hit) {
+FN TriangleHit packet_primitive(global const BvhLeaf* leaf, int kind, int k, PacketRay r,
+                                const PacketBounds* bounds, Real t, int any_hit) {
     if (HAS(shape_sphere) && kind == geometry_sphere)
-        return intersect_sphere(sub3(r.origin, column(leaf->rows, k)), r.direction,
-                                (Real)leaf->rows[3][k], t);
+        return certain_hit(intersect_sphere(sub3(r.origin, column(leaf->rows, k)), r.direction,
+                                            (Real)leaf->rows[3][k], t));
     if (HAS(shape_disk) && kind == geometry_disk)
-        return intersect_disk(sub3(column(leaf->rows, k), r.origin), r.direction,
-                              column(leaf->rows + 3, k), column(leaf->rows + 6, k), t);
-    return triangle_hit(
-        packet_corner(leaf->rows, k, r, bounds), packet_corner(leaf->rows + 3, k, r, bounds),
-        packet_corner(leaf->rows + 6, k, r, bounds), r.shear, t, any_hit, bounds->coherent);
+        return certain_hit(intersect_disk(sub3(column(leaf->rows, k), r.origin), r.direction,
+                                          column(leaf->rows + 3, k), column(leaf->rows + 6, k), t));
+    Corners s;
+    s.a = packet_corner(leaf->rows, k, r, bounds);
+    s.b = packet_corner(leaf->rows + 3, k, r, bounds);
+    s.c = packet_corner(leaf->rows + 6, k, r, bounds);
+    return triangle_hit(s, r.shear, t, any_hit, bounds->coherent);
 }
 
-/// Takes where the live rays hit one primitive into `hit`; returns the rays that do.
-FN Mask packet_take(Intersection i, int number, Int excluded, Mask live, int any_hit,
-                    PacketHit* hit) {
-    Mask hits = i.hit & live & (excluded != number);
-    if (any_hit) return hits;
-    Mask closer = hits & ((i.t < hit->t) | ((Int)number < hit->primitive));
-    hit->t = sel(closer, i.t, hit->t);
-    hit->b1 = sel(closer, i.b1, hit->b1);
-    hit->b2 = sel(closer, i.b2, hit->b2);
-    hit->primitive = sel(closer, (Int)number, hit->primitive);
-    return hits;
+/// Rays that hit something in a leaf, and those for which that has to be settled.
+typedef struct {
+    Mask found, doubtful;
+} LeafRays;
+
+/// Takes where the live rays hit one primitive into `hit`, but for the doubtful.
+FN LeafRays packet_take(LeafRays rays, TriangleHit h, int number, Int excluded, Mask live,
+                        int any_hit, PacketHit* hit) {
+    Mask wanted = live & (excluded != number);
+    Mask hits = h.hit & wanted & !h.doubtful;
+    if (!any_hit) packet_closer(hit, triangle_intersection(h), number, hits);
+    rays.found = rays.found | hits;
+    rays.doubtful = rays.doubtful | (h.doubtful & wanted);
+    return rays;
+}
+
+/// The rays that hit something in a leaf, once those in doubt have seen its candidates again.
+FN Mask rays_settled(LeafRays rays, global const BvhLine* leaf, int form, uint candidates,
+                     PacketRay r, Int excluded, int any_hit, PacketHit* hit) {
+    Mask open = any_hit ? rays.doubtful & !rays.found : rays.doubtful;
+    if (!RARELY(someLane(open))) return rays.found;
+    PacketRay ray = r; // copies, so that the packet itself may stay in registers
+    PacketHit settled = *hit;
+    settle_packet(&open, leaf, form, candidates, &ray, &excluded, any_hit, &settled);
+    *hit = settled;
+    return rays.found | open;
 }
 
 /// Triangles whose boxes some ray of a coherent packet may meet.
@@ -163,18 +175,22 @@ FN Mask packet_patch(global const BvhPatch* patch, PacketRay r, const PacketBoun
     for (int k = 0; k < BVH_WIDTH && !coherent; k++)
         ready[k] = packet_corner(patch->corner, k, r, bounds);
     int base = patch_base(patch);
-    Mask found = lanesOf(0);
+    global const BvhLine* lines = (global const BvhLine*)patch;
+    uint candidates = patch_candidates(patch, bounds, coherent);
+    LeafRays rays = {lanesOf(0), lanesOf(0)};
 #define READY_CORNER(place)                                                                        \
     (coherent ? packet_corner(patch->corner, place, r, bounds) : ready[place])
-    for (uint bits = patch_candidates(patch, bounds, coherent); bits; bits &= bits - 1) {
+    for (uint bits = candidates; bits; bits &= bits - 1) {
         int k = lowest_bit(bits), places = patch->triangle[k];
-        Intersection i =
-            triangle_hit(READY_CORNER(places & 15), READY_CORNER((places >> 4) & 15),
-                         READY_CORNER((places >> 8) & 15), r.shear, hit->t, any_hit, coherent);
-        if (coherent && !someLane(i.hit)) continue;
-        found = found | packet_take(i, patch_number(patch, base, k), excluded, live, any_hit, hit);
+        Corners s;
+        s.a = READY_CORNER(places & 15);
+        s.b = READY_CORNER((places >> 4) & 15);
+        s.c = READY_CORNER((places >> 8) & 15);
+        TriangleHit h = triangle_hit(s, r.shear, hit->t, any_hit, coherent);
+        if (coherent && !someLane(h.hit | h.doubtful)) continue;
+        rays = packet_take(rays, h, patch_number(patch, base, k), excluded, live, any_hit, hit);
     }
-    return found;
+    return rays_settled(rays, lines, BVH_PATCH, candidates, r, excluded, any_hit, hit);
 }
 
 /// Takes the hits of one leaf into `hit`; returns the rays that have one. Coherent rays mostly miss
@@ -187,13 +203,13 @@ FN Mask packet_leaf(global const BvhLine* lines, int form, PacketRay r, const Pa
                                 : packet_patch((global const BvhPatch*)lines, r, bounds, 0,
                                                excluded, live, any_hit, hit);
     global const BvhLeaf* leaf = (global const BvhLeaf*)lines;
-    Mask found = lanesOf(0);
-    int triangles = form == geometry_triangle;
-    for (uint bits = leaf_candidates(leaf, bounds, triangles); bits; bits &= bits - 1) {
+    uint candidates = leaf_candidates(leaf, bounds, form == geometry_triangle);
+    LeafRays rays = {lanesOf(0), lanesOf(0)};
+    for (uint bits = candidates; bits; bits &= bits - 1) {
         int k = lowest_bit(bits), number = leaf->primitive[k];
-        Intersection i = packet_primitive(leaf, form, k, r, bounds, hit->t, any_hit);
-        if (bounds->coherent && !someLane(i.hit)) continue;
-        found = found | packet_take(i, number, excluded, live, any_hit, hit);
+        TriangleHit h = packet_primitive(leaf, form, k, r, bounds, hit->t, any_hit);
+        if (bounds->coherent && !someLane(h.hit | h.doubtful)) continue;
+        rays = packet_take(rays, h, number, excluded, live, any_hit, hit);
     }
-    return found;
+    return rays_settled(rays, lines, form, candidates, r, excluded, any_hit, hit);
 }

@@ -20,6 +20,7 @@ typedef struct {
     int next, end;     // entries that have not been taken
     PacketLanes lanes; // LANES of them made ready, from a multiple of LANES on
     int any_hit;
+    float extent; // of all triangles
 } RayStream;
 
 #define STREAM_FIELD(s, name)                                                                      \
@@ -28,7 +29,7 @@ typedef struct {
 FN PacketRay stream_packet(const RayStream* s, int at) {
 #define STREAM_LANES(name) LOAD_REAL(STREAM_FIELD(s, name) + at)
     return packet_ray(v3(STREAM_LANES(ox), STREAM_LANES(oy), STREAM_LANES(oz)),
-                      v3(STREAM_LANES(dx), STREAM_LANES(dy), STREAM_LANES(dz)));
+                      v3(STREAM_LANES(dx), STREAM_LANES(dy), STREAM_LANES(dz)), s->extent);
 }
 
 /// Starts a walk with the next ray; its entry is returned.
@@ -108,10 +109,11 @@ FN StreamCounts stream_send(StreamWalks* s, StreamCounts counts, RayStream* rays
 /// first has no branch that depends on a ray, so the processor overlaps the walks; the second
 /// decides from what the first has stored, so that a branch guessed wrongly costs little.
 FN void traverse_stream(global const BvhNode* nodes, global const BvhLine* leaves, int root,
-                        global float* state, long stride, int begin, int end, int any_hit) {
+                        global float* state, long stride, int begin, int end, int any_hit,
+                        float extent) {
     RayStream rays;
     rays.state = state, rays.stride = stride;
-    rays.next = begin, rays.end = end, rays.any_hit = any_hit;
+    rays.next = begin, rays.end = end, rays.any_hit = any_hit, rays.extent = extent;
     StreamWalks s;
     StreamCounts at = {0, 0};
     for (int i = 0; i < STREAM_WALKS && rays.next < end; i++) {

@@ -159,6 +159,9 @@ FN Real absR(Real a) { return asReal(asUint(a) & 0x7fffffffu); }
 FN Real copysignR(Real a, Real b) {
     return asReal((asUint(a) & 0x7fffffffu) | (asUint(b) & 0x80000000u));
 }
+FN Mask signsDiffer(Real a, Real b) { return (asInt(a) ^ asInt(b)) < 0; }
+/// The largest power of two that is not above x; 0 where that is denormal; x >= 0 and finite.
+FN Real powerOfTwoBelow(Real x) { return asReal(asUint(x) & 0x7f800000u); }
 #define LANE_NAN NAN
 #define LANE_INFINITY INFINITY
 #define finiteR(x) ((asUint(x) & 0x7f800000u) != 0x7f800000u)
@@ -187,6 +190,10 @@ FN Real absR(Real a) { return std::fabs(a); }
 FN Real copysignR(Real a, Real b) { return std::copysign(a, b); }
 FN Mask finiteR(Real x) { return std::isfinite(x); }
 FN Real scale_by_power_of_two(Real x, Int n) { return std::ldexp(x, n); }
+FN Mask signsDiffer(Real a, Real b) { return std::signbit(a) != std::signbit(b); }
+FN Real powerOfTwoBelow(Real x) {
+    return std::isnormal(x) ? std::ldexp(Real(1), std::ilogb(x)) : Real(0);
+}
 #define LANE_NAN ((Real)NAN)
 #define LANE_INFINITY ((Real)INFINITY)
 #endif
@@ -194,6 +201,13 @@ FN Real scale_by_power_of_two(Real x, Int n) { return std::ldexp(x, n); }
 // -----------------------------------------------------------------------------------------------
 // everywhere
 #define sel(mask, a, b) ((mask) ? (a) : (b))
+
+// An `if` on what is seldom so: the code for it is put out of the way.
+#if defined(__clang__) || defined(__GNUC__)
+#define RARELY(x) (__builtin_expect((x) != 0, 0))
+#else
+#define RARELY(x) (x)
+#endif
 
 // Comparisons instead of fmin/fmax: those have NaN rules of their own and cost several
 // instructions.

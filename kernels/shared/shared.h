@@ -5,6 +5,7 @@
 #include "shared/lane.h"
 #include "shared/math.h"
 #include "shared/records.h"
+#include "shared/two_real.h"
 
 #include "shared/fresnel.h"
 #include "shared/intersect.h"

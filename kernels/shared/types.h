@@ -175,13 +175,14 @@ LAYOUT(CameraRecord, 84);
     X(int, segment_size)                      /* path slots owned by one work-item */               \
     X(int, segment_stride)                    /* their entries in the path state, with padding */   \
     X(int, aov_channels)                                                                           \
-    X(int, camera_root) X(int, root)          /* BVH roots for camera rays and for all others */
+    X(int, camera_root) X(int, root)          /* BVH roots for camera rays and for all others */   \
+    X(float, extent)                          /* largest side of a box around all triangles */
 typedef struct {
     CameraRecord camera;
     RENDER_FIELDS(FIELD_DECLARE)
     int aov_offset[AOV_LIMIT]; // first film channel of each AOV kind, -1: not asked for
 } RenderParams;
-LAYOUT(RenderParams, 84 + 26 * 4 + AOV_LIMIT * 4);
+LAYOUT(RenderParams, 84 + 27 * 4 + AOV_LIMIT * 4);
 
 // A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
 // Which of them a slot of the pool is, device/wave.h says.

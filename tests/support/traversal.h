@@ -42,6 +42,7 @@ public:
         leaves_ =
             Buffer<BvhLine>(d_.context, d_.queue, "leaves", bvh.leaves.data(), bvh.leaves.size());
         root_ = root;
+        extent_ = bvh_extent(bvh, root);
     }
 
     std::vector<TestHit> closest(std::span<const TestRay> rays) const {
@@ -148,6 +149,7 @@ private:
         params.state_stride = params.result_stride = static_cast<int>(s.stride());
         params.segment_size = params.segment_stride = segment;
         params.root = params.camera_root = root_;
+        params.extent = extent_;
         cl_uint argument = 0;
 #define SET_BUFFER(type, name) kernel.setArg(argument++, name.handle());
         SCENE_BUFFERS(SET_BUFFER)
@@ -166,6 +168,7 @@ private:
     Buffer<BvhNode> nodes_;
     Buffer<BvhLine> leaves_;
     int root_ = 0;
+    float extent_ = 0;
 };
 
 } // namespace parhelion::test

@@ -44,12 +44,15 @@ struct ReadyRay {
             slab[a] = f32::ray_slab(r.origin[a], r.direction[a], largest);
         int z = size[0] > size[1] ? (size[0] > size[2] ? 0 : 2) : (size[1] > size[2] ? 1 : 2);
         axis = {(z + 1) % 3, (z + 2) % 3, z};
-        shear = {r.direction[axis[0]] / r.direction[z], r.direction[axis[1]] / r.direction[z],
-                 1.f / r.direction[z]};
+        shear.origin = renamed(r.origin[0], r.origin[1], r.origin[2]);
+        shear.shear_x = r.direction[axis[0]] / r.direction[z];
+        shear.shear_y = r.direction[axis[1]] / r.direction[z];
+        shear.shear_z = 1.f / r.direction[z];
+        shear.doubt = std::numeric_limits<float>::infinity();
     }
 
-    f32::vec3 relative(float x, float y, float z) const {
-        Vector v{x - ray.origin[0], y - ray.origin[1], z - ray.origin[2]};
+    f32::vec3 renamed(float x, float y, float z) const {
+        Vector v{x, y, z};
         return f32::v3(v[axis[0]], v[axis[1]], v[axis[2]]);
     }
 };
@@ -66,8 +69,9 @@ inline f32::Intersection intersect(int kind, const std::array<float, 9>& p, cons
     if (kind == geometry_disk)
         return f32::intersect_disk(f32::sub3(centre, origin), direction, f32::v3(p[3], p[4], p[5]),
                                    f32::v3(p[6], p[7], p[8]), t_max);
-    return f32::intersect_triangle(r.relative(p[0], p[1], p[2]), r.relative(p[3], p[4], p[5]),
-                                   r.relative(p[6], p[7], p[8]), r.shear, t_max);
+    f32::Corners corners = {r.renamed(p[0], p[1], p[2]), r.renamed(p[3], p[4], p[5]),
+                            r.renamed(p[6], p[7], p[8])};
+    return f32::intersect_triangle(corners, r.shear, t_max);
 }
 
 /// The nearer hit wins, of equally near ones that of the lower number.

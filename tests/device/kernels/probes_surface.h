@@ -5,32 +5,53 @@ FN ProbeOut out_intersection(Intersection i) {
     // Where nothing is hit the rest is of no account.
     return put3(o, 1, sel3(i.hit, v3(i.t, i.b1, i.b2), splat3(R(0.))));
 }
+FN Corners in_corners(ProbeIn i) {
+    Corners v;
+    v.a = in3(i, 0);
+    v.b = in3(i, 3);
+    v.c = in3(i, 6);
+    return v;
+}
+FN RayShear in_ray(ProbeIn i) {
+    RayShear ray;
+    ray.origin = splat3(R(0.));
+    ray.shear_x = i.w[9] * R(.01);
+    ray.shear_y = i.w[10] * R(.01);
+    ray.shear_z = i.w[11];
+    ray.doubt = ray_doubt(ray.shear_z, R(4.));
+    return ray;
+}
 FN ProbeOut probe_intersect_triangle(ProbeIn i) {
-    RayShear shear;
-    shear.shear_x = i.w[9] * R(.01);
-    shear.shear_y = i.w[10] * R(.01);
-    shear.shear_z = i.w[11];
-    return out_intersection(
-        intersect_triangle(in3(i, 0), in3(i, 3), in3(i, 6), shear, absR(i.w[12])));
+    return out_intersection(intersect_triangle(in_corners(i), in_ray(i), absR(i.w[12])));
 }
 FN ProbeOut probe_intersect_triangle_through_corners(ProbeIn i) {
-    vec3 a = in3(i, 0), b = in3(i, 3), c = in3(i, 6);
-    RayShear shear; // through a corner, an edge or the inside of the triangle
-    vec3 aim = add3(scale3(a, i.w[9]), scale3(b, R(1.) - i.w[9]));
-    shear.shear_x = aim.x / aim.z;
-    shear.shear_y = aim.y / aim.z;
-    shear.shear_z = R(1.) / aim.z;
-    return out_intersection(intersect_triangle(a, b, c, shear, LANE_INFINITY));
+    Corners v = in_corners(i);
+    RayShear ray = in_ray(i); // through a corner, an edge or the inside of the triangle
+    vec3 aim = add3(scale3(v.a, i.w[9]), scale3(v.b, R(1.) - i.w[9]));
+    ray.shear_x = aim.x / aim.z;
+    ray.shear_y = aim.y / aim.z;
+    ray.shear_z = R(1.) / aim.z;
+    return out_intersection(intersect_triangle(v, ray, LANE_INFINITY));
 }
 FN ProbeOut probe_triangle_blocks(ProbeIn i) {
-    RayShear shear;
-    shear.shear_x = i.w[9] * R(.01);
-    shear.shear_y = i.w[10] * R(.01);
-    shear.shear_z = i.w[11];
-    vec3 a = shear_corner(in3(i, 0), shear), b = shear_corner(in3(i, 3), shear),
-         c = shear_corner(in3(i, 6), shear);
-    TriangleEdges e = triangle_edges(a, b, c);
-    return out1(mask_word(triangle_blocks(e, a, b, c, shear, absR(i.w[12]))));
+    return out1(mask_word(triangle_occludes(in_corners(i), in_ray(i), absR(i.w[12]))));
+}
+/// A ray that starts on the triangle, but for rounding.
+FN RayShear in_ray_from_triangle(ProbeIn i) {
+    RayShear ray = in_ray(i);
+    Corners v = in_corners(i);
+    Real b1 = i.w[12], b2 = i.w[13] * (R(1.) - b1);
+    ray.origin = add3(scale3(v.a, R(1.) - b1 - b2), add3(scale3(v.b, b1), scale3(v.c, b2)));
+    return ray;
+}
+FN ProbeOut probe_triangle_started_on(ProbeIn i) {
+    RayShear ray = in_ray_from_triangle(i);
+    ProbeOut o = out_intersection(intersect_triangle(in_corners(i), ray, LANE_INFINITY));
+    return put1(o, 4, mask_word(triangle_occludes(in_corners(i), ray, LANE_INFINITY)));
+}
+FN ProbeOut probe_plane_side(ProbeIn i) {
+    PlaneSide p = plane_side(in_corners(i), in_ray_from_triangle(i), i.w[11]);
+    return put1(out1(mask_word(p.ahead)), 1, p.t);
 }
 FN ProbeOut probe_intersect_sphere(ProbeIn i) {
     return out_intersection(intersect_sphere(in3(i, 0), in3(i, 3), i.w[6], LANE_INFINITY));
@@ -84,7 +105,8 @@ FN ProbeOut probe_camera_ray(ProbeIn i) {
 // clang-format off
 #define PROBES                                                                                     \
     PROBE(intersect_triangle, "pppcccr", 4) PROBE(triangle_blocks, "pppcccr", 1)                   \
-    PROBE(intersect_triangle_through_corners, "pppu", 4)                                           \
+    PROBE(intersect_triangle_through_corners, "pppud", 4)                                          \
+    PROBE(triangle_started_on, "pppduu", 5) PROBE(plane_side, "pppduu", 2)                        \
     PROBE(intersect_sphere, "pps", 4)                                                              \
     PROBE(intersect_disk, "pppp", 4)                                                               \
     PROBE(box_overlap, "rrrrrrr", 2) PROBE(ray_slab, "rrr", 3)                                     \
