@@ -4,6 +4,7 @@
 #include "host/commands/devices.h"
 #include "host/commands/info.h"
 #include "host/commands/render.h"
+#include "host/commands/stress.h"
 #include "host/commands/version.h"
 #include "host/error.h"
 
@@ -24,12 +25,13 @@ int fail(ExitCode code, const char* what) {
 CommandLine command_line() {
     return {
         .summary = "Parhelion: a physically based renderer for the command line, on OpenCL",
-        .footer = "Exit codes: 0 done, 1 images differ (compare), 2 unusable input, 3 device "
+        .footer = "Exit codes: 0 done, 1 images differ (compare) or a check does not hold "
+                  "(stress), 2 unusable input, 3 device "
                   "failure, 4 internal failure.\n"
                   "Each subcommand has its own --help with examples.",
         .version = version_text,
         .subcommands = {render_subcommand(), compare_subcommand(), info_subcommand(),
-                        compile_subcommand(), devices_subcommand()},
+                        compile_subcommand(), devices_subcommand(), stress_subcommand()},
     };
 }
 

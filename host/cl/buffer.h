@@ -51,7 +51,7 @@ public:
     Buffer(const cl::Context& context, const cl::CommandQueue& queue, const std::string& name,
            const T* values, std::size_t count)
         : Buffer(context, name, count) {
-        if (count_ > 0) queue.enqueueWriteBuffer(handle_, CL_TRUE, 0, bytes(), values);
+        write(queue, values);
     }
 
     /// Host values that kernels only read: a CPU reads them where they are, others get a copy.
@@ -81,6 +81,9 @@ public:
 
     void fill_zero(const cl::CommandQueue& queue) const {
         if (count_ > 0) queue.enqueueFillBuffer(handle_, cl_uchar{0}, 0, bytes());
+    }
+    void write(const cl::CommandQueue& queue, const T* values) const {
+        if (count_ > 0) queue.enqueueWriteBuffer(handle_, CL_TRUE, 0, bytes(), values);
     }
     void read(const cl::CommandQueue& queue, T* values) const {
         if (count_ > 0) queue.enqueueReadBuffer(handle_, CL_TRUE, 0, bytes(), values);

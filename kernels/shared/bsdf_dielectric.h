@@ -6,11 +6,9 @@ FN BsdfEval bsdf_dielectric_eval(Material m, vec3 wo, vec3 wi) { return bsdf_eva
 FN BsdfSample bsdf_dielectric_sample(Material m, vec3 wo, vec2 u, Real u_lobe) {
     BsdfSample s = bsdf_sample_none();
     Interface i = material_interface(m, wo.z > R(0.));
-    Real c = absR(wo.z);
-    Fresnel f = fresnel_dielectric(c, i);
+    Fresnel f = fresnel_dielectric(absR(wo.z), i);
     Mask reflect = u_lobe < f.reflectance;
-    vec3 refracted = refract_about(wo, v3(R(0.), R(0.), copysignR(R(1.), wo.z)), c, f.g, i);
-    s.wi = sel3(reflect, reflect_local(wo), refracted);
+    s.wi = sel3(reflect, reflect_local(wo), refract_local_with(wo, f.g, i));
     s.weight = sel3(reflect, material_reflectance(m),
                     scale3(material_transmittance(m), i.inv_eta * i.inv_eta));
     s.pdf = LANE_INFINITY;

@@ -52,13 +52,17 @@ FN vec3 refract_about(vec3 w, vec3 n, Real c, Real g, Interface i) {
     return sel3(transmits, t, splat3(R(0.)));
 }
 
+/// The same about the normal (0, 0, 1), for w on either side of it.
+FN vec3 refract_local_with(vec3 w, Real g, Interface i) {
+    vec3 t = v3(-w.x * i.inv_eta, -w.y * i.inv_eta, copysignR(g * i.inv_eta, -w.z));
+    return sel3(g > R(0.), t, splat3(R(0.)));
+}
+
 /// Refraction in the tangent frame: the normal is (0, 0, 1) and `w` may lie on either side; from
 /// below the caller gives the interface with its two indices swapped, and z flips. The zero vector
 /// on total internal reflection.
 FN vec3 refract_local(vec3 w, Interface i) {
-    Real c = absR(w.z);
-    Fresnel f = fresnel_dielectric(c, i);
-    return refract_about(w, v3(R(0.), R(0.), copysignR(R(1.), w.z)), c, f.g, i);
+    return refract_local_with(w, fresnel_dielectric(absR(w.z), i).g, i);
 }
 
 /// Unpolarised conductor Fresnel, one wavelength; eta + i k relative to the side of incidence, c
@@ -69,7 +73,8 @@ FN Real fresnel_conductor(Real c, Real eta, Real k) {
     Real c_squared = c * c;
     Real s_squared = (R(1.) - c) * (R(1.) + c);
     Real contrast = (eta - 1.f) * (eta + 1.f) - k * k; // eta^2 - k^2 - 1
-    Real difference = contrast + c_squared;
+    // eta^2 - k^2 - sin^2: without the 1 where an index below 1 and a cosine near it would cancel.
+    Real difference = sel(c_squared > R(.5), (eta * eta - k * k) - s_squared, contrast + c_squared);
     Real product = 2.f * eta * k;
     Real modulus = sqrtR(difference * difference + product * product); // a^2 + b^2
     // The larger of a^2, b^2 by a sum, the smaller by a quotient: (a b)^2 = (eta k)^2.

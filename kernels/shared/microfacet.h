@@ -10,14 +10,17 @@ FN Real stretched_length(vec3 w, Real alpha_u, Real alpha_v) {
     return length3(v3(alpha_u * w.x, alpha_v * w.y, w.z));
 }
 
-/// (h.x^2 / au^2 + h.y^2 / av^2) au av. Divides nothing where the roughness is isotropic.
-FN Real roughness_scaled_square(vec3 h, Real alpha_u, Real alpha_v) {
-    Real x = h.x * h.x, y = h.y * h.y;
+/// (h.x^2 / au^2 + h.y^2 / av^2) au av + rest. Divides nothing where the roughness is isotropic;
+/// the larger square comes last, where it is rounded once less.
+FN Real add_roughness_scaled_square(vec3 h, Real alpha_u, Real alpha_v, Real rest) {
+    Real small = h.x, large = h.y, small_scaled = h.x, large_scaled = h.y;
     if (HAS(anisotropy)) {
-        x = x * (alpha_v / alpha_u);
-        y = y * (alpha_u / alpha_v);
+        Real x = h.x * (alpha_v / alpha_u), y = h.y * (alpha_u / alpha_v);
+        Mask ordered = x * h.x < y * h.y;
+        small = sel(ordered, h.x, h.y), large = sel(ordered, h.y, h.x);
+        small_scaled = sel(ordered, x, y), large_scaled = sel(ordered, y, x);
     }
-    return x + y;
+    return fmaR(large_scaled, large, fmaR(small_scaled, small, rest));
 }
 
 /// pi / D(h) of GGX: (h.x^2 / au^2 + h.y^2 / av^2 + h.z^2)^2 au av (Walter et al. 2007; Heitz
@@ -30,7 +33,7 @@ FN Quotient ggx_d_quotient(vec3 h, Real alpha_u, Real alpha_v) {
     Real r = alpha_u * alpha_v;
     Quotient d;
     d.over = r * R(INV_PI);
-    d.under = square(roughness_scaled_square(h, alpha_u, alpha_v) + r * (h.z * h.z));
+    d.under = square(add_roughness_scaled_square(h, alpha_u, alpha_v, r * (h.z * h.z)));
     return d;
 }
 
@@ -54,7 +57,7 @@ FN Real ggx_visible_d(vec3 wo, vec3 h, Real alpha_u, Real alpha_v) {
 /// Beckmann density of normals h, 1/sr.
 FN Real beckmann_d(vec3 h, Real alpha_u, Real alpha_v) {
     Real z_squared = h.z * h.z, scale = alpha_u * alpha_v * z_squared;
-    Real e = exp_negative(-roughness_scaled_square(h, alpha_u, alpha_v) / scale);
+    Real e = exp_negative(-add_roughness_scaled_square(h, alpha_u, alpha_v, R(0.)) / scale);
     return e * R(INV_PI) / (scale * z_squared);
 }
 

@@ -23,6 +23,16 @@ typedef struct {
     Real solid_angle;      // sr; 0 for a triangle seen from its own plane
 } SphericalTriangle;
 
+/// Twice the area vector of a triangle, up to its sign, from its two shorter sides: of a needle's
+/// two long ones the directions nearly agree, and rounding decides how nearly.
+FN vec3 triangle_cross(vec3 a, vec3 b, vec3 c) {
+    vec3 ab = sub3(b, a), bc = sub3(c, b), ca = sub3(a, c);
+    Real ab_squared = dot3(ab, ab), bc_squared = dot3(bc, bc), ca_squared = dot3(ca, ca);
+    Mask without_ab = (ab_squared >= bc_squared) & (ab_squared >= ca_squared);
+    Mask without_bc = bc_squared >= ca_squared;
+    return cross3(sel3(without_ab, bc, ab), sel3(without_ab | without_bc, ca, bc));
+}
+
 /// Corners relative to the point they are seen from. The solid angle is that of Van Oosterom and
 /// Strackee 1983, with the volume from the differences of the corners, which keeps its digits for
 /// small triangles (relative error below 2e-6).
@@ -31,7 +41,7 @@ FN SphericalTriangle spherical_triangle(vec3 start, vec3 apex, vec3 end) {
     Real product = s * a * e;
     Mask apart = product > R(0.);
     Real safe = sel(apart, product, R(1.));
-    Real volume = absR(dot3(start, cross3(sub3(apex, start), sub3(end, start))));
+    Real volume = absR(dot3(start, triangle_cross(start, apex, end)));
     Real rest = product + dot3(start, apex) * e + dot3(start, end) * a + dot3(apex, end) * s;
     SphericalTriangle t;
     t.start = scale3(start, R(1.) / sel(apart, s, R(1.)));

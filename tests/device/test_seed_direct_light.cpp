@@ -5,7 +5,7 @@
 #include "host/scene/load.h"
 #include "tests/support/traversal.h"
 
-#include "tests/unit/test_bvh_shapes.h"
+#include "host/stress/shapes.h"
 
 #include <glm/geometric.hpp>
 
@@ -133,16 +133,16 @@ TEST_CASE(
         f32::vec2 film = {static_cast<float>(x) + .5f + (f32::uniform01(r.x) - .5f),
                           static_cast<float>(y) + .5f + (f32::uniform01(r.y) - .5f)};
         auto ray = f32::camera_ray(camera, film, {0, 0});
-        bvh_test::Ray test_ray{{ray.origin.x, ray.origin.y, ray.origin.z},
-                               {ray.direction.x, ray.direction.y, ray.direction.z}};
-        bvh_test::Hit hit = bvh_test::brute_force(flat.primitives, test_ray);
+        rays::Ray test_ray{{ray.origin.x, ray.origin.y, ray.origin.z},
+                           {ray.direction.x, ray.direction.y, ray.direction.z}};
+        rays::Hit hit = rays::brute_force(flat.primitives, test_ray);
         double expected[3] = {0, 0, 0};
         if (hit.primitive >= 0) {
             hits++;
             const PrimitiveRecord& p = flat.primitives[static_cast<std::size_t>(hit.primitive)];
-            bvh_test::ReadyRay ready(test_ray);
+            rays::ReadyRay ready(test_ray);
             f32::Intersection i =
-                bvh_test::intersect(geometry_triangle, bvh_test::column_of(p), ready, INFINITY);
+                rays::intersect(geometry_triangle, rays::column_of(p), ready, INFINITY);
             // In double from here: the device's float arithmetic is allowed its roundings.
             const VertexRecord& v = flat.vertices[static_cast<std::size_t>(hit.primitive)];
             double b1 = i.b1, b2 = i.b2, b0 = 1 - b1 - b2;

@@ -2,25 +2,25 @@
 #include "tests/support/traversal.h"
 
 #include "host/scene/mesh_obj.h"
-#include "tests/unit/test_bvh_shapes.h"
+#include "host/stress/shapes.h"
 
 #include <filesystem>
 
 using namespace parhelion;
 using namespace parhelion::test;
-using bvh_test::Primitives;
+using rays::Primitives;
 
 namespace {
 
 /// Random rays, and as many in packets that go the same way.
-std::vector<bvh_test::Ray> rays_for(int count, unsigned seed) {
-    bvh_test::Random random(seed);
-    std::vector<bvh_test::Ray> rays;
+std::vector<rays::Ray> rays_for(int count, unsigned seed) {
+    rays::Random random(seed);
+    std::vector<rays::Ray> rays;
     rays.reserve(2 * static_cast<std::size_t>(count));
     for (int i = 0; i < count; i++)
-        rays.push_back(bvh_test::random_ray(random, i));
+        rays.push_back(rays::random_ray(random, i));
     for (int i = 0; i < count; i++) {
-        bvh_test::Ray ray = rays[static_cast<std::size_t>(i - i % 16)];
+        rays::Ray ray = rays[static_cast<std::size_t>(i - i % 16)];
         for (float& d : ray.direction)
             d *= 1.f + .01f * static_cast<float>(i % 16);
         ray.direction[static_cast<std::size_t>(i) % 3] *= 1.02f;
@@ -29,7 +29,7 @@ std::vector<bvh_test::Ray> rays_for(int count, unsigned seed) {
     return rays;
 }
 
-TestRay test_ray(const bvh_test::Ray& r) {
+TestRay test_ray(const rays::Ray& r) {
     return {{r.origin[0], r.origin[1], r.origin[2]},
             {r.direction[0], r.direction[1], r.direction[2]}};
 }
@@ -39,11 +39,11 @@ struct Differences {
     int hits = 0, t = 0, primitive = 0, occlusion = 0;
 };
 
-Differences differences(const Traversal& traversal, const std::vector<bvh_test::Ray>& rays,
-                        const std::vector<bvh_test::Hit>& truth) {
+Differences differences(const Traversal& traversal, const std::vector<rays::Ray>& rays,
+                        const std::vector<rays::Hit>& truth) {
     std::vector<TestRay> test_rays;
     test_rays.reserve(rays.size());
-    for (const bvh_test::Ray& r : rays)
+    for (const rays::Ray& r : rays)
         test_rays.push_back(test_ray(r));
     std::vector<TestHit> hits = traversal.closest(test_rays);
     std::vector<bool> occluded = traversal.occluded(test_rays);
@@ -60,15 +60,15 @@ Differences differences(const Traversal& traversal, const std::vector<bvh_test::
 struct Soup {
     std::string name;
     Primitives primitives;
-    std::vector<bvh_test::Ray> rays;
-    std::vector<bvh_test::Hit> truth;
+    std::vector<rays::Ray> rays;
+    std::vector<rays::Hit> truth;
     Bvh bvh;
     int root;
 
     Soup(const std::string& name, const Primitives& primitives, int ray_count)
         : name(name), primitives(primitives), rays(rays_for(ray_count, 77)) {
-        for (const bvh_test::Ray& r : rays)
-            truth.push_back(bvh_test::brute_force(primitives, r));
+        for (const rays::Ray& r : rays)
+            truth.push_back(rays::brute_force(primitives, r));
         root = bvh_append(bvh, primitives);
     }
 };
@@ -97,15 +97,14 @@ TEST_CASE(
     "[device]") {
     std::vector<Soup> soups;
     soups.emplace_back("one triangle",
-                       Primitives{bvh_test::triangle({-1, -1, 0}, {1, -1, .1f}, {0, 1, .2f})},
-                       20000);
-    soups.emplace_back("small triangles", bvh_test::random_triangles(2000, .1f), 4000);
-    soups.emplace_back("large triangles", bvh_test::random_triangles(500, 1.f), 4000);
-    soups.emplace_back("spheres, disks, triangles", bvh_test::random_mixture(900), 6000);
-    soups.emplace_back("grid", bvh_test::grid(20, .25f), 6000);
-    soups.emplace_back("needles", bvh_test::needles(1000), 6000);
-    soups.emplace_back("the same forty times",
-                       bvh_test::repeated(bvh_test::random_triangles(50, .5f), 40), 5000);
+                       Primitives{rays::triangle({-1, -1, 0}, {1, -1, .1f}, {0, 1, .2f})}, 20000);
+    soups.emplace_back("small triangles", rays::random_triangles(2000, .1f), 4000);
+    soups.emplace_back("large triangles", rays::random_triangles(500, 1.f), 4000);
+    soups.emplace_back("spheres, disks, triangles", rays::random_mixture(900), 6000);
+    soups.emplace_back("grid", rays::grid(20, .25f), 6000);
+    soups.emplace_back("needles", rays::needles(1000), 6000);
+    soups.emplace_back("the same forty times", rays::repeated(rays::random_triangles(50, .5f), 40),
+                       5000);
     check_soups(soups);
 }
 
@@ -119,10 +118,10 @@ TEST_CASE("Traversal on the device equals brute force on the bunny", "[device]")
     Primitives primitives;
     auto at = [&](unsigned i) {
         glm::vec3 p(mesh.positions[i]);
-        return bvh_test::Vector{p.x, p.y, p.z};
+        return rays::Vector{p.x, p.y, p.z};
     };
     for (const glm::uvec3& t : mesh.triangles)
-        primitives.push_back(bvh_test::triangle(at(t.x), at(t.y), at(t.z)));
+        primitives.push_back(rays::triangle(at(t.x), at(t.y), at(t.z)));
     std::vector<Soup> soups;
     soups.emplace_back("bunny", primitives, 600);
     check_soups(soups);
@@ -130,9 +129,8 @@ TEST_CASE("Traversal on the device equals brute force on the bunny", "[device]")
 
 TEST_CASE("A ray does not meet the primitive it leaves, nor anything beyond its end", "[device]") {
     TestDevice d;
-    Primitives primitives =
-        bvh_test::repeated({bvh_test::triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0})}, 2);
-    primitives.push_back(bvh_test::triangle({-1, -1, 1}, {1, -1, 1}, {0, 1, 1}));
+    Primitives primitives = rays::repeated({rays::triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0})}, 2);
+    primitives.push_back(rays::triangle({-1, -1, 1}, {1, -1, 1}, {0, 1, 1}));
     Bvh bvh;
     int root = bvh_append(bvh, primitives);
     const float infinity = std::numeric_limits<float>::infinity();

@@ -3,7 +3,7 @@
 #include "tests/support/traversal.h"
 
 #include "host/scene/mesh_obj.h"
-#include "tests/unit/test_bvh_shapes.h"
+#include "host/stress/shapes.h"
 
 #include <embree3/rtcore.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 class EmbreeScene {
 public:
-    explicit EmbreeScene(const bvh_test::Primitives& primitives)
+    explicit EmbreeScene(const rays::Primitives& primitives)
         : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
         rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
         RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -100,7 +100,7 @@ struct Agreement {
            embrees = 0; ///< largest error of a distance against double, ulps over the sensitivity
 };
 
-void judge(const bvh_test::Primitives& primitives, const TestRay& ray, const TestHit& ours,
+void judge(const rays::Primitives& primitives, const TestRay& ray, const TestHit& ours,
            const TestHit& theirs, Agreement& a) {
     auto of = [&](int i) -> const PrimitiveRecord& {
         return primitives[static_cast<std::size_t>(i)];
@@ -136,19 +136,19 @@ TEST_CASE("Traversal on the device agrees with Embree on the bunny, but for ties
         return;
     }
     MeshData mesh = load_obj(file, true, {});
-    bvh_test::Primitives primitives;
+    rays::Primitives primitives;
     auto at = [&](unsigned i) {
         glm::vec3 p(mesh.positions[i]);
-        return bvh_test::Vector{p.x, p.y, p.z};
+        return rays::Vector{p.x, p.y, p.z};
     };
     for (const glm::uvec3& t : mesh.triangles)
-        primitives.push_back(bvh_test::triangle(at(t.x), at(t.y), at(t.z)));
+        primitives.push_back(rays::triangle(at(t.x), at(t.y), at(t.z)));
     EmbreeScene embree(primitives);
 
-    bvh_test::Random random(123);
+    rays::Random random(123);
     std::vector<TestRay> rays;
     for (int i = 0; i < 100000; i++) {
-        bvh_test::Ray r = bvh_test::random_ray(random, i);
+        rays::Ray r = rays::random_ray(random, i);
         rays.push_back({{r.origin[0], r.origin[1], r.origin[2]},
                         {r.direction[0], r.direction[1], r.direction[2]}});
     }

@@ -1,11 +1,11 @@
 // No ray from inside a closed mesh gets out on the device, wherever the mesh is and however large.
 #include "tests/support/traversal.h"
 
-#include "tests/unit/test_bvh_shapes.h"
+#include "host/stress/shapes.h"
 
 using namespace parhelion;
 using namespace parhelion::test;
-using bvh_test::Vector;
+using rays::Vector;
 
 namespace {
 
@@ -16,21 +16,20 @@ struct Place {
 
 /// Rays from inside to every corner, and to a point of an edge that is as exactly on it as floats
 /// can say.
-std::vector<TestRay> aimed_rays(const bvh_test::Primitives& mesh, const Place& place,
+std::vector<TestRay> aimed_rays(const rays::Primitives& mesh, const Place& place,
                                 std::size_t count) {
-    bvh_test::Random random(11);
+    rays::Random random(11);
     std::vector<TestRay> rays;
     rays.reserve(count);
     for (std::size_t i = 0; i < count; i++) {
         const PrimitiveRecord& p = mesh[i % mesh.size()];
         Vector a{p.ax, p.ay, p.az}, b{p.bx, p.by, p.bz};
-        float s = i % 3 == 0 ? 0.f : i % 3 == 1 ? .5f : bvh_test::uniform(random, 0, 1);
-        Vector aim = bvh_test::add(a, bvh_test::scaled(bvh_test::subtract(b, a), s));
+        float s = i % 3 == 0 ? 0.f : i % 3 == 1 ? .5f : rays::uniform(random, 0, 1);
+        Vector aim = rays::add(a, rays::scaled(rays::subtract(b, a), s));
         Vector o = place.centre;
         if (i / mesh.size() > 0)
-            o = bvh_test::add(
-                o, bvh_test::uniform_vector(random, -.4f * place.radius, .4f * place.radius));
-        Vector v = bvh_test::subtract(aim, o);
+            o = rays::add(o, rays::uniform_vector(random, -.4f * place.radius, .4f * place.radius));
+        Vector v = rays::subtract(aim, o);
         rays.push_back({{o[0], o[1], o[2]}, {v[0], v[1], v[2]}});
     }
     return rays;
@@ -48,7 +47,7 @@ TEST_CASE("A million rays at edges and corners of closed meshes: no leak on the 
         // The default variant has the full number of rays, the others check that they are no worse.
         std::size_t count = variant.lanes == 16 && !variant.portable ? 340000 : 30000;
         for (const Place& place : places) {
-            bvh_test::Primitives mesh = bvh_test::subdivided_sphere(4, place.radius, place.centre);
+            rays::Primitives mesh = rays::subdivided_sphere(4, place.radius, place.centre);
             Bvh bvh;
             int root = bvh_append(bvh, mesh);
             traversal.upload(bvh, root);

@@ -5,6 +5,7 @@
 #include "host/cl/buffer.h"
 #include "host/cl/program.h"
 #include "host/cl/source.h"
+#include "host/render/render_device.h"
 
 #include <catch2/catch.hpp>
 
@@ -17,10 +18,8 @@
 namespace parhelion::test {
 
 /// A context of its own on the default device.
-struct TestDevice {
-    Device device = choose_device("");
-    cl::Context context{device.handle};
-    cl::CommandQueue queue{context, device.handle};
+struct TestDevice : RenderDevice {
+    TestDevice() : RenderDevice(choose_device("")) {}
 };
 
 /// How the same kernel text can be compiled. All of them must give the same bits.

@@ -1,5 +1,5 @@
 // The tree is the same bits whatever the number of threads, and each time it is built.
-#include "tests/unit/test_bvh_shapes.h"
+#include "host/stress/shapes.h"
 
 #include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>
@@ -7,7 +7,7 @@
 #include <cstring>
 
 using namespace parhelion;
-using namespace parhelion::bvh_test;
+using namespace parhelion::rays;
 
 namespace {
 

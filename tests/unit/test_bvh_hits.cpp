@@ -1,10 +1,10 @@
 // Walking the BVH finds what testing every primitive finds.
-#include "tests/unit/test_bvh_shapes.h"
+#include "host/stress/shapes.h"
 
 #include <catch2/catch.hpp>
 
 using namespace parhelion;
-using namespace parhelion::bvh_test;
+using namespace parhelion::rays;
 
 namespace {
 

@@ -1,6 +1,6 @@
 // What must hold for every tree: all primitives once, boxes that contain, leaves of one kind, a
 // stack that suffices.
-#include "tests/unit/test_bvh_shapes.h"
+#include "host/stress/shapes.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 using namespace parhelion;
-using namespace parhelion::bvh_test;
+using namespace parhelion::rays;
 
 namespace {
 

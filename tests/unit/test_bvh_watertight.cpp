@@ -1,35 +1,12 @@
 // Rays from inside a closed mesh, aimed at its edges and corners, never get out.
-#include "tests/unit/test_bvh_shapes.h"
+#include "host/stress/shapes.h"
 
 #include <catch2/catch.hpp>
 
 using namespace parhelion;
-using namespace parhelion::bvh_test;
+using namespace parhelion::rays;
 
 namespace {
-
-/// The surface of a cube of n x n x n cells, edge length 2 radius; many rays to its corners are
-/// parallel to an axis.
-Primitives cube_surface(int n, float radius, const Vector& centre) {
-    Primitives result;
-    auto corner = [&](int axis, float side, int i, int j) {
-        Vector v;
-        v[std::size_t(axis)] = side;
-        v[std::size_t(axis + 1) % 3] = float(2 * i) / float(n) - 1;
-        v[std::size_t(axis + 2) % 3] = float(2 * j) / float(n) - 1;
-        return add(scaled(v, radius), centre);
-    };
-    for (int axis = 0; axis < 3; axis++)
-        for (float side : {-1.f, 1.f})
-            for (int i = 0; i < n; i++)
-                for (int j = 0; j < n; j++) {
-                    Vector a = corner(axis, side, i, j), b = corner(axis, side, i + 1, j);
-                    Vector c = corner(axis, side, i + 1, j + 1), d = corner(axis, side, i, j + 1);
-                    result.push_back(triangle(a, b, c));
-                    result.push_back(triangle(a, c, d));
-                }
-    return result;
-}
 
 /// Corners, and points of the edges as exactly as floats can say.
 std::vector<Vector> targets(const Primitives& mesh) {

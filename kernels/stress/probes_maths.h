@@ -93,7 +93,8 @@ FN ProbeOut probe_ggx_sample_visible(ProbeIn i) {
     return out3(ggx_sample_visible(wo, i.w[3], i.w[4], in2(i, 5)));
 }
 FN ProbeOut probe_power_heuristic(ProbeIn i) {
-    return out2(v2(power_heuristic(i.w[0], i.w[1]), power_heuristic_inverse(i.w[0], i.w[1])));
+    return out3(v3(power_heuristic(i.w[0], i.w[1]), power_heuristic_inverse(i.w[0], i.w[1]),
+                   power_heuristic(i.w[1], i.w[0])));
 }
 FN ProbeOut probe_russian_roulette(ProbeIn i) {
     Roulette r = russian_roulette(abs3(in3(i, 0)), i.w[3], i.w[4]);
@@ -115,5 +116,5 @@ FN ProbeOut probe_russian_roulette(ProbeIn i) {
                         PROBE(fresnel_dielectric, "ci", 3) PROBE(fresnel_conductor, "css", 1)      \
                             PROBE(ggx, "daad", 3) PROBE(beckmann, "daa", 2)                         \
                                 PROBE(ggx_sample_visible, "daauu", 3)                              \
-                                    PROBE(power_heuristic, "rr", 2)                                \
+                                    PROBE(power_heuristic, "rr", 3)                                \
                                         PROBE(russian_roulette, "rrrcu", 2)

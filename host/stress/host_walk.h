@@ -1,5 +1,4 @@
-// For the BVH tests: rays against every primitive, and down the wide tree, with the maths the
-// kernels use.
+// Rays against every primitive, and down the wide tree, on the host with the maths the kernels use.
 #pragma once
 
 #include "host/bvh/bvh.h"
@@ -13,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace parhelion::bvh_test {
+namespace parhelion::rays {
 
 using Vector = std::array<float, 3>;
 
@@ -189,4 +188,4 @@ inline Hit walk(const Bvh& bvh, int root, const Ray& ray, std::size_t* peak = nu
     return hit;
 }
 
-} // namespace parhelion::bvh_test
+} // namespace parhelion::rays

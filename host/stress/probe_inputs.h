@@ -6,7 +6,7 @@
 //   primitive (16)     v vertex (16)   k camera (21)
 #pragma once
 
-#include "tests/support/shared_maths.h"
+#include "host/stress/measure.h"
 
 #include <bit>
 #include <functional>
@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace parhelion::test {
+namespace parhelion::stress {
 
 using Words = std::vector<float>;
 
@@ -188,4 +188,4 @@ private:
     Words words_;
 };
 
-} // namespace parhelion::test
+} // namespace parhelion::stress

@@ -1,13 +1,13 @@
-// For the BVH tests: collections of primitives, and rays aimed at them.
+// Collections of primitives that are hard on a tree or on a ray, and rays aimed at them.
 #pragma once
 
-#include "tests/unit/test_bvh_walk.h"
+#include "host/stress/host_walk.h"
 
 #include <cmath>
 #include <random>
 #include <vector>
 
-namespace parhelion::bvh_test {
+namespace parhelion::rays {
 
 using Primitives = std::vector<PrimitiveRecord>;
 using Random = std::mt19937;
@@ -107,6 +107,29 @@ inline Primitives subdivided_sphere(int levels, float radius, const Vector& cent
     return result;
 }
 
+/// The surface of a cube of n x n x n cells, edge length 2 radius; many rays to its corners are
+/// parallel to an axis.
+inline Primitives cube_surface(int n, float radius, const Vector& centre) {
+    Primitives result;
+    auto corner = [&](int axis, float side, int i, int j) {
+        Vector v;
+        v[std::size_t(axis)] = side;
+        v[std::size_t(axis + 1) % 3] = float(2 * i) / float(n) - 1;
+        v[std::size_t(axis + 2) % 3] = float(2 * j) / float(n) - 1;
+        return add(scaled(v, radius), centre);
+    };
+    for (int axis = 0; axis < 3; axis++)
+        for (float side : {-1.f, 1.f})
+            for (int i = 0; i < n; i++)
+                for (int j = 0; j < n; j++) {
+                    Vector a = corner(axis, side, i, j), b = corner(axis, side, i + 1, j);
+                    Vector c = corner(axis, side, i + 1, j + 1), d = corner(axis, side, i, j + 1);
+                    result.push_back(triangle(a, b, c));
+                    result.push_back(triangle(a, c, d));
+                }
+    return result;
+}
+
 /// A flat square of n x n cells, two triangles each, at height z.
 inline Primitives grid(int n, float z) {
     Primitives result;
@@ -161,4 +184,4 @@ inline Ray random_ray(Random& random, int i) {
     return ray;
 }
 
-} // namespace parhelion::bvh_test
+} // namespace parhelion::rays

@@ -95,6 +95,12 @@ FN ProbeOut probe_surface_disk(ProbeIn i) {
     vec2 d = disk_uniform(in2(i, 16));
     return out_surface(surface_disk(in_Primitive(i, 0), d.x, d.y));
 }
+FN ProbeOut probe_spherical_triangle(ProbeIn i) {
+    SphericalTriangle t = spherical_triangle(in3(i, 0), in3(i, 3), in3(i, 6));
+    vec3 w = spherical_triangle_uniform(t, in2(i, 9));
+    vec3 e1 = sub3(in3(i, 3), in3(i, 0)), e2 = sub3(in3(i, 6), in3(i, 0));
+    return put2(put3(out1(t.solid_angle), 1, w), 4, plane_coordinates(in3(i, 0), e1, e2, w));
+}
 FN ProbeOut probe_camera_ray(ProbeIn i) {
     CameraRay r = camera_ray(in_Camera(i, 0), v2(i.w[21] * R(1000.), i.w[22] * R(1000.)),
                              disk_uniform(in2(i, 23)));
@@ -113,4 +119,4 @@ FN ProbeOut probe_camera_ray(ProbeIn i) {
         PROBE(leave_surface, "ppdd", 3)                                                            \
         PROBE(surface_triangle, "guu", 23) PROBE(surface_vertex_attributes, "gvuu", 23)            \
             PROBE(surface_sphere, "gp", 23) PROBE(surface_disk, "guu", 23)                         \
-                PROBE(camera_ray, "kuuuu", 7)
+                PROBE(spherical_triangle, "pppuu", 6) PROBE(camera_ray, "kuuuu", 7)

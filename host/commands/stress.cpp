@@ -1,0 +1,138 @@
+// `parhelion stress`: how accurate this build is on this machine's device.
+#include "host/commands/stress.h"
+
+#include "host/clock.h"
+#include "host/commands/version.h"
+#include "host/error.h"
+#include "host/image/output.h"
+#include "host/render/render_device.h"
+#include "host/stress/catalogue.h"
+#include "host/stress/report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+namespace parhelion {
+namespace {
+
+struct StressCommand {
+    bool quick = false, full = false, list = false, quiet = false, force = false;
+    std::string filter, report_folder, json_file, device;
+    std::optional<std::uint32_t> seed;
+};
+
+std::vector<stress::Row> wanted_rows(const std::string& filter) {
+    std::vector<stress::Row> rows;
+    for (const stress::Row& row : stress::catalogue())
+        if (row.name.find(filter) != std::string::npos || row.chapter == filter)
+            rows.push_back(row);
+    if (rows.empty())
+        throw InputError(
+            fmt::format("--filter {}: no row or chapter of that name; --list shows them", filter));
+    return rows;
+}
+
+void list_rows(const std::vector<stress::Row>& rows) {
+    for (const stress::Row& row : rows)
+        fmt::print("{:<12} {:<34} {}\n", row.chapter, row.name, row.title);
+}
+
+stress::RowResult run_row(const stress::Row& row, stress::StressRun& run, Progress& progress) {
+    progress.start(row.name);
+    auto start = Clock::now();
+    stress::RowResult result{row, row.run(run), 0};
+    result.seconds = seconds_since(start);
+    std::size_t failing = 0;
+    for (const stress::Check& check : result.checks) {
+        failing += !check.holds();
+        fmt::print("{}\n", stress::text_line(check));
+    }
+    std::fflush(stdout);
+    progress.finish(failing == 0 ? "all hold"
+                                 : fmt::format("{} of {} FAIL", failing, result.checks.size()));
+    return result;
+}
+
+void write_text(const std::string& file, const std::string& text) {
+    PendingFile pending(file);
+    std::ofstream out(pending.temporary_name(), std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw InputError(file + ": could not be written");
+    pending.commit();
+}
+
+/// Refuses what could not be written after minutes of work.
+void check_writable(const std::string& file, bool force) {
+    namespace fs = std::filesystem;
+    fs::path folder = fs::path(file).parent_path();
+    if (!folder.empty() && !fs::is_directory(folder))
+        throw InputError(fmt::format("{}: the folder {} does not exist", file, folder.string()));
+    if (fs::exists(file) && !force) throw InputError(file + ": exists; give --force to replace it");
+}
+
+std::string page_file(const StressCommand& c) {
+    return (std::filesystem::path(c.report_folder) / "index.html").string();
+}
+
+int run_stress(const StressCommand& c) {
+    if (c.quick && c.full) throw InputError("stress: --quick or --full, not both");
+    std::vector<stress::Row> rows = wanted_rows(c.filter);
+    if (c.list) {
+        list_rows(rows);
+        return static_cast<int>(ExitCode::ok);
+    }
+    if (!c.report_folder.empty()) {
+        std::filesystem::create_directories(c.report_folder);
+        check_writable(page_file(c), c.force);
+    }
+    if (!c.json_file.empty()) check_writable(c.json_file, c.force);
+    Progress progress = Progress::standard(c.quiet);
+    RenderDevice& device = open_to_the_end(choose_device(c.device));
+    stress::StressRun run(device, c.full ? stress::Effort::full : stress::Effort::quick,
+                          c.seed.value_or(1), progress);
+    stress::Report report{c.full ? "full" : "quick", version_text(), run.seed, device.device, {}};
+    for (const stress::Row& row : rows)
+        report.rows.push_back(run_row(row, run, progress));
+    if (!c.json_file.empty()) write_text(c.json_file, stress::report_json(report).dump(2) + "\n");
+    if (!c.report_folder.empty()) write_text(page_file(c), stress::report_page(report));
+    fmt::print("{} checks in {:.0f} s: {}\n", report.check_count(), report.seconds(),
+               report.holds() ? "all hold" : "NOT all hold");
+    return static_cast<int>(report.holds() ? ExitCode::ok : ExitCode::different);
+}
+
+} // namespace
+
+Subcommand stress_subcommand() {
+    auto c = std::make_shared<StressCommand>();
+    return {
+        .name = "stress",
+        .summary = "Test the numerics on this machine: every function against a higher precision, "
+                   "rays, sums, statistics",
+        .examples = "Examples:\n"
+                    "  parhelion stress                                # minutes; exit code 1 if a "
+                    "check does not hold\n"
+                    "  parhelion stress --full --report stress/        # hours: 1e9 inputs a "
+                    "function; a page with plots\n"
+                    "  parhelion stress --filter fresnel --json fresnel.json\n"
+                    "  parhelion stress --list",
+        .options = {{"--quick", &c->quick, "Under five minutes (the default)"},
+                    {"--full", &c->full, "The release run: hours"},
+                    {"--filter", &c->filter, "Only rows whose name holds this, or of this chapter"},
+                    {"--list", &c->list, "Show the rows and end"},
+                    {"--report", &c->report_folder, "Folder for a page with tables and plots"},
+                    {"--json", &c->json_file, "File for all figures"},
+                    {"--seed", &c->seed, "Of the random inputs"},
+                    {"--device", &c->device, "Index, or part of a name (see `parhelion devices`)"},
+                    {"--force", &c->force, "Replace existing files"},
+                    {"-q,--quiet", &c->quiet, "No progress"}},
+        .run = [c] { return run_stress(*c); },
+    };
+}
+
+} // namespace parhelion

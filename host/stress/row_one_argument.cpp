@@ -1,0 +1,169 @@
+// Every float of the domain of every function of one number: device against host, host against
+// double.
+#include "host/stress/rows.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <atomic>
+
+#include "host/stress/measure.h"
+#include "host/stress/probes.h"
+
+namespace parhelion::f32 {
+#include "kernels/stress/one_argument.h"
+} // namespace parhelion::f32
+
+namespace parhelion::stress {
+namespace {
+
+constexpr std::uint32_t chunk = 1024; // CHUNK of kernels/stress/one_argument.cl
+constexpr std::uint32_t batch = 1 << 18;
+
+struct Range {
+    std::uint32_t first, last; ///< bits; empty where first > last
+};
+
+struct OneArgument {
+    std::string name;
+    f32::Real (*function)(f32::Uint);
+    std::array<Range, 2> ranges;
+};
+
+std::vector<OneArgument> functions() {
+#define LIST_FUNCTION(name, first, last, first2, last2)                                            \
+    {#name, f32::one_##name, {{{first, last}, {first2, last2}}}},
+    return {ONE_ARGUMENT_FUNCTIONS(LIST_FUNCTION)};
+}
+
+float argument(std::uint32_t bits) { return std::bit_cast<float>(bits); }
+
+/// What is asked of a function: the error of y = f(bits), in this unit, and how large it may be.
+struct Accuracy {
+    const char* unit;
+    double target;
+    double (*error)(std::uint32_t bits, float y);
+};
+
+/// By the name in the list; absolute where the result is an angle or a coordinate. The truth is the
+/// C library's double, whose error is 1e-9 of what is measured.
+Accuracy accuracy(const std::string& name) {
+    if (name == "sine")
+        return {"", 1.2e-7, [](std::uint32_t bits, float y) {
+                    return std::fabs(double(y) - std::sin(2 * M_PI * double(argument(bits))));
+                }};
+    if (name == "cosine")
+        return {"", 1.2e-7, [](std::uint32_t bits, float y) {
+                    return std::fabs(double(y) - std::cos(2 * M_PI * double(argument(bits))));
+                }};
+    if (name == "exp_negative")
+        return {"relative", 2e-7, [](std::uint32_t bits, float y) {
+                    return std::fabs(double(y) / std::exp(double(argument(bits))) - 1);
+                }};
+    if (name == "acos")
+        return {"radians", 4e-7, [](std::uint32_t bits, float y) {
+                    return std::fabs(double(y) - std::acos(double(argument(bits))));
+                }};
+    if (name == "uniform01") // exact, and so never 1
+        return {"", 0, [](std::uint32_t bits, float y) {
+                    return y < 1 ? std::fabs(double(y) - double(bits >> 8) * 0x1p-24) : INFINITY;
+                }};
+    throw std::logic_error("no accuracy is asked of " + name);
+}
+
+struct Finding {
+    double worst = 0;
+    std::uint32_t worst_bits = 0;
+    std::uint64_t differing = 0, tried = 0;
+};
+
+void merge(Finding& to, const Finding& from) {
+    if (!(from.worst <= to.worst)) to.worst = from.worst, to.worst_bits = from.worst_bits;
+    to.differing += from.differing, to.tried += from.tried;
+}
+
+struct Worker {
+    cl::CommandQueue queue;
+    cl::Kernel kernel;
+    Buffer<float> out;
+    std::vector<float> values = std::vector<float>(batch);
+    Worker(const RenderDevice& d, const Program& program)
+        : queue(d.context, d.device.handle), kernel(program.kernel("one_argument")),
+          out(d.context, "one_argument", batch) {
+        kernel.setArg(0, out.handle());
+    }
+
+    void run(std::uint32_t first, int which) {
+        kernel.setArg(1, cl_uint{first});
+        kernel.setArg(2, which);
+        queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(batch / chunk),
+                                   cl::NDRange(1));
+        out.read(queue, values.data());
+    }
+};
+
+/// The arguments of a range from `first` on that fit into a batch.
+Finding try_batch(Worker& w, const OneArgument& f, int which, const Accuracy& a,
+                  std::uint32_t first, std::uint32_t last) {
+    w.run(first, which);
+    Finding found;
+    for (std::uint32_t i = 0; i < batch && i <= last - first; i++) {
+        std::uint32_t bits = first + i;
+        float host = f.function(bits);
+        found.tried++;
+        found.differing += !same_bits(host, w.values[i]);
+        double error = std::max(a.error(bits, host), a.error(bits, w.values[i]));
+        if (!(error <= found.worst)) found.worst = error, found.worst_bits = bits;
+    }
+    return found;
+}
+
+/// Every `stride`-th batch of both ranges, and their last one.
+Finding try_all(StressRun& run, const OneArgument& f, int which, std::uint32_t stride) {
+    const Program& program = run.program("one_argument");
+    tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(run.device, program); });
+    Accuracy a = accuracy(f.name);
+    Finding all;
+    for (Range range : f.ranges) {
+        if (range.first > range.last) continue;
+        std::size_t batches = (range.last - range.first) / batch + 1;
+        std::vector<Finding> found(batches);
+        std::atomic<std::size_t> finished = 0;
+        tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t i) {
+            if (i % stride != 0 && i + 1 != batches) return;
+            auto first = range.first + static_cast<std::uint32_t>(i) * batch;
+            found[i] = try_batch(workers.local(), f, which, a, first, range.last);
+            run.done(static_cast<double>(finished += stride) / static_cast<double>(batches));
+        });
+        for (const Finding& part : found)
+            merge(all, part);
+    }
+    return all;
+}
+
+} // namespace
+
+Checks row_one_argument(StressRun& run) {
+    Checks checks;
+    std::vector<OneArgument> list = functions();
+    for (std::size_t i = 0; i < list.size(); i++) {
+        Accuracy a = accuracy(list[i].name);
+        Finding f =
+            try_all(run, list[i], static_cast<int>(i), run.effort == Effort::test ? 256 : 1);
+        checks.push_back({.name = list[i].name + ": largest error",
+                          .value = f.worst,
+                          .target = a.target,
+                          .unit = a.unit,
+                          .samples = f.tried,
+                          .worst_at = fmt::format("{:.9g}", argument(f.worst_bits))});
+        checks.push_back({.name = list[i].name + ": bits that differ between host and device",
+                          .value = static_cast<double>(f.differing),
+                          .target = 0,
+                          .unit = "inputs",
+                          .samples = f.tried});
+    }
+    return checks;
+}
+
+} // namespace parhelion::stress
