@@ -13,7 +13,7 @@
 
 /// Adds the samples of a block one by one to its own pixels; as splat_block.
 FN uint add_block(BlockResults block, WaveParams wave, const RenderParams* params,
-                  int film_channels, global float* sums, global float* errors) {
+                  int film_channels, global Scalar* sums, global Scalar* errors) {
     uint dropped = 0;
     for (int part = 0; part < BLOCK_PARTS; part++) {
         for (int sample = 0; sample < wave.sample_count; sample++) {
@@ -42,8 +42,8 @@ kernel void accumulate(KERNEL_PARAMETERS) {
     gathered.results = results + (long)block * wave.sample_count * BLOCK_PIXELS;
     gathered.stride = params.result_stride;
     gathered.squares = result_field_count + params.aov_channels;
-    global float* sums = film + (long)(wave.first_block + block) * TILE_CELLS(params.filter_reach);
-    global float* errors = sums + (long)film_channels * params.film_stride;
+    global Scalar* sums = film + (long)(wave.first_block + block) * TILE_CELLS(params.filter_reach);
+    global Scalar* errors = sums + (long)film_channels * params.film_stride;
     uint dropped = 0;
     if (HAS(filter_splatting)) {
         for (int first = 0; first < wave.sample_count; first += SPLAT_SAMPLES)

@@ -12,7 +12,7 @@ typedef struct {
     Mask active, hit;
 } PathVertex;
 
-FN PathVertex load_vertex_state(global const float* path_state, RenderParams params, int at,
+FN PathVertex load_vertex_state(global const Scalar* path_state, RenderParams params, int at,
                                 int left) {
     PathVertex v;
     v.active = active_lanes(left);
@@ -91,7 +91,7 @@ FN vec3 surface_emission(PathVertex v, Primitive p, SurfaceInteraction s,
     return emitted;
 }
 
-FN void write_aovs(global float* results, RenderParams params, PathVertex v, Primitive p,
+FN void write_aovs(global Scalar* results, RenderParams params, PathVertex v, Primitive p,
                    SurfaceInteraction s, Material m) {
     uint bits = maskBits(v.hit);
     long stride = params.result_stride;

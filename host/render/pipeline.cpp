@@ -2,6 +2,8 @@
 // waves.
 #include "host/render/pipeline.h"
 
+#include "host/render/scene_arrays.h"
+
 namespace parhelion {
 namespace {
 
@@ -21,21 +23,7 @@ Pipeline::Pipeline(RenderDevice& device, const StageOptions& options)
     : device_(device), stages_(compile_stages(device, options)) {}
 
 void Pipeline::upload(const DeviceScene& scene) {
-    struct {
-        const decltype(scene.bvh.nodes)& bvh_nodes;
-        const decltype(scene.bvh.leaves)& bvh_leaves;
-        const LargeVector<PrimitiveRecord>& primitives;
-        const LargeVector<VertexRecord>& vertices;
-        const std::vector<MaterialRecord>& materials;
-        const std::vector<LightRecord>& lights;
-        const std::vector<LightNodeRecord>& light_nodes;
-        const std::vector<int>& light_leaves;
-        const std::vector<FilterBin>& filter_table;
-        const std::vector<float>& filter_values;
-    } arrays{scene.bvh.nodes,        scene.bvh.leaves,        scene.primitives,
-             scene.vertices,         scene.materials,         scene.lights,
-             scene.light_tree.nodes, scene.light_tree.leaves, scene.filter_table,
-             scene.filter_values};
+    SceneArrays arrays = scene_arrays(scene);
 #define UPLOAD(type, name) scene_.name = make_buffer(device_, #name, arrays.name);
     SCENE_BUFFERS(UPLOAD)
 }

@@ -8,10 +8,6 @@
 namespace parhelion {
 namespace {
 
-/// Of a sample in its pixel, where it is splatted; else results have no more channels than the
-/// film.
-constexpr int offset_channels = 2;
-
 int rounded_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
 
 } // namespace
@@ -68,12 +64,11 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
       no_film_(device.context, "film", 0), work_group_size_(s.work_group_size) {
     for (std::size_t stage = 0; stage < stage_count; stage++)
         kernels_.push_back(programs.programs[stage].kernel(stage_names[stage]));
-    std::size_t result_channels = s.film_channels + (s.window.reach > 0 ? offset_channels : 0);
     std::size_t counted = std::max(s.segments, s.blocks_per_wave);
     const cl::Context& context = device.context;
     work_.path_state = {context, "path_state", path_field_count * s.state_stride()};
     work_.shadow_state = {context, "shadow_state", shadow_field_count * s.state_stride()};
-    work_.results = {context, "results", result_channels * s.result_stride()};
+    work_.results = {context, "results", s.result_channels() * s.result_stride()};
     work_.counts = {context, "counts", 2 * static_cast<std::size_t>(s.segments)};
     work_.statistics = {context, "statistics", statistic_count * counted};
     // Leftovers behind the last path are read (and ignored): they must be numbers the first time

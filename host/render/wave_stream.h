@@ -42,6 +42,8 @@ struct WorkSizes {
     SampleWindow window;
     int film_channels = 5;
 
+    /// Two more than the film's where samples are splatted: their offsets in their pixels.
+    std::size_t result_channels() const { return film_channels + (window.reach > 0 ? 2 : 0); }
     std::size_t result_stride() const { return odd_lines(path_capacity); }
     std::size_t film_stride() const { return odd_lines(window.tiles() * window.tile_cells()); }
     std::size_t state_stride() const {

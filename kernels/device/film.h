@@ -2,7 +2,7 @@
 
 /// Adds v to a sum kept as two floats (TwoSum, Knuth): the error of each addition is carried, so
 /// 1e9 samples do not drift.
-FN void film_add(global float* sum, global float* error, Real v) {
+FN void film_add(global Scalar* sum, global Scalar* error, Real v) {
     Real a = LOAD_REAL(sum);
     Real s = a + v;
     Real b = s - a;
@@ -13,9 +13,9 @@ FN void film_add(global float* sum, global float* error, Real v) {
 
 /// What the samples of a block have gathered.
 typedef struct {
-    global const float* results; // from the block's first slot on
-    long stride;                 // floats between two channels
-    int squares;                 // the first channel of second moments, behind all results
+    global const Scalar* results; // from the block's first slot on
+    long stride;                  // floats between two channels
+    int squares;                  // the first channel of second moments, behind all results
 } BlockResults;
 
 FN Real block_result(BlockResults b, int channel, Int slot) {

@@ -1,5 +1,7 @@
 // Moving lanes between memory and registers: contiguous, packed (survivors only), scattered, and
 // 64-byte records.
+#ifndef PARHELION_LANES_MEMORY_H
+#define PARHELION_LANES_MEMORY_H
 
 #define LOAD_REAL(p) (*(global const Real*)(p))
 #define LOAD_INT(p) (*(global const Int*)(p))
@@ -8,7 +10,7 @@
 
 typedef union {
     Real lanes;
-    float at[LANES];
+    Scalar at[LANES];
 } RealLanes;
 typedef union {
     Int lanes;
@@ -39,10 +41,6 @@ FN Real look_up(const Table* t, Int place) {
     return shuffle2(t->part[0], t->part[1], as_uint8(place));
 #endif
 }
-
-typedef struct {
-    Real word[16];
-} Record;
 
 // Storing the lanes whose bits are set one behind the other. Where lanes are many, up to LANES
 // entries behind `p` are overwritten.
@@ -75,26 +73,23 @@ typedef Int IntAnywhere __attribute__((aligned(4)));
             p[n++] = x.at[lowest_bit(bits)];                                                       \
     }
 #endif
-PACKED_STORE(store_packed, global, float, Real, RealLanes, COMPRESS_REAL)
+PACKED_STORE(store_packed, global, Scalar, Real, RealLanes, COMPRESS_REAL)
 PACKED_STORE(store_packed_int, global, int, Int, IntLanes, COMPRESS_INT)
-PACKED_STORE(store_packed_private, private, float, Real, RealLanes, COMPRESS_REAL)
-PACKED_STORE(store_packed_private_int, private, int, Int, IntLanes, COMPRESS_INT)
+PACKED_STORE(store_packed_private, , Scalar, Real, RealLanes, COMPRESS_REAL)
+PACKED_STORE(store_packed_private_int, , int, Int, IntLanes, COMPRESS_INT)
 
 #if LANES == 1
 // -------------------------------------------------------------------------------------------------
 // one lane
-FN Record load_record(global const float* records, Int index) {
-    Record r;
-    global const float* p = records + 16 * (long)index;
-    for (int k = 0; k < 16; k++)
-        r.word[k] = p[k];
-    return r;
-}
 FN Real gather(global const float* p, Int index) { return p[index]; }
-FN void scatter_add(global float* p, Int index, Real v, uint bits) {
+#ifdef PARHELION_REAL_IS_DOUBLE
+FN Real gather(const Scalar* p, Int index) { return p[index]; }
+#endif
+FN Int gather_int(global const int* p, Int index) { return p[index]; }
+FN void scatter_add(global Scalar* p, Int index, Real v, uint bits) {
     if (bits) p[index] += v;
 }
-FN void scatter_add3(global float* p, long stride, Int index, vec3 v, uint bits) {
+FN void scatter_add3(global Scalar* p, long stride, Int index, vec3 v, uint bits) {
     scatter_add(p, index, v.x, bits);
     scatter_add(p + stride, index, v.y, bits);
     scatter_add(p + 2 * stride, index, v.z, bits);
@@ -122,6 +117,10 @@ FN Real gather(global const float* p, Int index) {
     return r.lanes;
 }
 #endif
+
+FN Int gather_int(global const int* p, Int index) {
+    return asInt(gather((global const float*)p, index));
+}
 
 /// The lanes' indices must differ. Not the processor's scatter: measured, 15 ns a shadow ray more.
 FN void scatter_add(global float* p, Int index, Real v, uint bits) {
@@ -159,6 +158,10 @@ FN void scatter_add3(global float* p, long stride, Int index, vec3 v, uint bits)
         at[2 * stride] += z.at[k];
     }
 }
+
+typedef struct {
+    Real word[16];
+} Record;
 
 #if LANES == 16 && defined(__clang__)
 // 16 aligned loads and a 16 x 16 transpose in registers: cheaper than 16 gathers.
@@ -220,6 +223,15 @@ FN Record load_record(global const float* records, Int index) {
 #endif
 
 // The fields of a record by name, from the list in types.h.
+#if LANES == 1
+#define RECORD_FIELD(type, name) s.name = records[index].name;
+#define LOADER(Struct, FIELDS, UNPACK, ENUM)                                                       \
+    FN Struct load_##Struct(global const Struct##Record* records, Int index) {                     \
+        Struct s;                                                                                  \
+        FIELDS(RECORD_FIELD)                                                                       \
+        return s;                                                                                  \
+    }
+#else
 #define WORD_float(w) (w)
 #define WORD_int(w) asInt(w)
 #define LOADER(Struct, FIELDS, UNPACK, ENUM)                                                       \
@@ -230,6 +242,7 @@ FN Record load_record(global const float* records, Int index) {
         FIELDS(UNPACK)                                                                             \
         return s;                                                                                  \
     }
+#endif
 #define PRIMITIVE_ENUM(type, name) primitive_word_##name,
 #define PRIMITIVE_UNPACK(type, name) s.name = WORD_##type(record.word[primitive_word_##name]);
 LOADER(Primitive, PRIMITIVE_FIELDS, PRIMITIVE_UNPACK, PRIMITIVE_ENUM)
@@ -245,3 +258,5 @@ LOADER(Light, LIGHT_FIELDS, LIGHT_UNPACK, LIGHT_ENUM)
 #define LIGHT_NODE_ENUM(type, name) light_node_word_##name,
 #define LIGHT_NODE_UNPACK(type, name) s.name = WORD_##type(record.word[light_node_word_##name]);
 LOADER(LightNode, LIGHT_NODE_FIELDS, LIGHT_NODE_UNPACK, LIGHT_NODE_ENUM)
+
+#endif

@@ -73,7 +73,7 @@ FN Real light_pmf(global const LightNodeRecord* nodes, global const int* leaves,
                   Mask wanted) {
     Real pmf = R(1.);
     if (!HAS(light_tree)) return pmf;
-    Int at = asInt(gather((global const float*)leaves, row));
+    Int at = gather_int(leaves, row);
     Mask walking = wanted;
     vec3 unused = v3(R(0.), R(0.), R(1.));
     while (someLane(walking)) {

@@ -38,13 +38,13 @@ typedef union {
 #endif
 
 /// Adds a part of a block's pixels to the tile, the block's corner at (x, y).
-FN void tile_add(float* tile, int side, int x, int y, int part, Real v) {
+FN void tile_add(Scalar* tile, int side, int x, int y, int part, Real v) {
 #if LANES == 1
     tile[(y + part / 4) * side + x + part % 4] += v;
 #else
     PixelRows pixels;
     pixels.lanes = v;
-    float* corner = tile + (y + part * (LANES / 4)) * side + x;
+    Scalar* corner = tile + (y + part * (LANES / 4)) * side + x;
     for (int row = 0; row < LANES / 4; row++) {
     private
         Float4Anywhere* cells = (private Float4Anywhere*)(corner + row * side);
@@ -55,7 +55,7 @@ FN void tile_add(float* tile, int side, int x, int y, int part, Real v) {
 
 /// Adds `count` samples of a part's pixels, one value each, to the tile. For each cell pixels come
 /// in the order of their numbers, and of each pixel the sum of its samples.
-FN void tile_splat(float* tile, int reach, int part, const Real* values,
+FN void tile_splat(Scalar* tile, int reach, int part, const Real* values,
                    const SplatWeights* weights, int count) {
     int side = TILE_SIDE(reach);
     for (int y = 2 * reach; y >= 0; y--) {
@@ -75,7 +75,7 @@ FN void tile_splat(float* tile, int reach, int part, const Real* values,
 /// Returns how many samples were not finite and are left out.
 FN uint splat_block(BlockResults block, WaveParams wave, int first, int count,
                     global const float* filter, const RenderParams* params, int film_channels,
-                    global float* sums, global float* errors) {
+                    global Scalar* sums, global Scalar* errors) {
     SplatWeights weights[BLOCK_PARTS][SPLAT_SAMPLES];
     uint good[BLOCK_PARTS][SPLAT_SAMPLES];
     int reach = params->filter_reach;
@@ -101,7 +101,7 @@ FN uint splat_block(BlockResults block, WaveParams wave, int first, int count,
                 values[n] =
                     sel(lanesOf(good[part][n]),
                         sample_value(block, channel, part_slots(wave, part, first + n)), R(0.));
-            tile_splat((float*)tile, reach, part, values, weights[part], count);
+            tile_splat((Scalar*)tile, reach, part, values, weights[part], count);
         }
         for (int k = 0; k < TILE_CELLS(reach) / LANES; k++) {
             long cell = (long)channel * params->film_stride + k * LANES;

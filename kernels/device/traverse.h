@@ -3,6 +3,8 @@
 //
 // Boxes are widened and triangles are watertight, so no hit is lost; of two hits at the same
 // distance the lower primitive number wins, so the answer does not depend on the order of the walk.
+#ifndef PARHELION_TRAVERSE_H
+#define PARHELION_TRAVERSE_H
 
 #include "device/traverse_doubt.h"
 
@@ -171,3 +173,5 @@ FN void walk_alone(RayWalk* w, WalkStack* stack, global const BvhNode* nodes,
         code = next == WALK_ENDS ? walk_pop(w, stack, any_hit) : next;
     }
 }
+
+#endif

@@ -3,6 +3,8 @@
 //
 // Functions of their own, which read the corners again: what is rarely needed takes no registers
 // from what is always.
+#ifndef PARHELION_TRAVERSE_DOUBT_H
+#define PARHELION_TRAVERSE_DOUBT_H
 
 #include "device/traverse_leaf.h"
 
@@ -30,9 +32,8 @@ FN Corners triangle_corners(const int* axis, global const BvhLine* lines, int fo
 }
 
 /// Of one ray; for any hit 0; below 0 where the triangle is not hit.
-static __attribute__((noinline)) float settled_distance(global const BvhLine* leaf, int form, int k,
-                                                        const TraversalRay* ray, float t_max,
-                                                        int any_hit) {
+FN_APART float settled_distance(global const BvhLine* leaf, int form, int k,
+                                const TraversalRay* ray, float t_max, int any_hit) {
     RayShear shear = single_shear(ray);
     Corners v = triangle_corners(ray->axis, leaf, form, k);
     RealLanes t;
@@ -54,10 +55,8 @@ FN Corners packet_corners(PacketRay r, global const BvhLine* leaf, int form, int
 
 /// Of a packet's rays in `lanes`: takes all their hits in a leaf; `lanes` becomes those that hit
 /// anything.
-static __attribute__((noinline)) void settle_packet(Mask* lanes, global const BvhLine* leaf,
-                                                    int form, uint candidates, const PacketRay* r,
-                                                    const Int* excluded, int any_hit,
-                                                    PacketHit* hit) {
+FN_APART void settle_packet(Mask* lanes, global const BvhLine* leaf, int form, uint candidates,
+                            const PacketRay* r, const Int* excluded, int any_hit, PacketHit* hit) {
     Mask found = lanesOf(0);
     for (; candidates; candidates &= candidates - 1) {
         int k = lowest_bit(candidates), number = leaf_number(leaf, form, k);
@@ -73,3 +72,5 @@ static __attribute__((noinline)) void settle_packet(Mask* lanes, global const Bv
     }
     *lanes = found;
 }
+
+#endif

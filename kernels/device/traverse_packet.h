@@ -1,6 +1,8 @@
 // A packet of rays through the wide BVH together: a box or a primitive at a time against all lanes.
 //
 // The answers are those of traverse(), to the bit; it also takes over where few rays are left.
+#ifndef PARHELION_TRAVERSE_PACKET_H
+#define PARHELION_TRAVERSE_PACKET_H
 
 #include "device/traverse.h"
 #include "device/traverse_packet_leaf.h"
@@ -140,3 +142,5 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* 
         code = next, bits = next_bits;
     }
 }
+
+#endif

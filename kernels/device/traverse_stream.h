@@ -3,6 +3,8 @@
 //
 // The answers are those of a packet, to the bit. Streams pay where rays go different ways through a
 // tree that is larger than the caches.
+#ifndef PARHELION_TRAVERSE_STREAM_H
+#define PARHELION_TRAVERSE_STREAM_H
 
 #include "device/traverse.h"
 
@@ -151,3 +153,5 @@ FN void traverse_stream(global const BvhNode* nodes, global const BvhLine* leave
         }
     }
 }
+
+#endif

@@ -2,6 +2,8 @@
 //
 // The samples of a pixel lie side by side, and the pixels of a block in Morton order, so the rays
 // of a packet start as close together as they can: of 16 samples, in one pixel.
+#ifndef PARHELION_WAVE_H
+#define PARHELION_WAVE_H
 
 #define BLOCK_PARTS (BLOCK_PIXELS / LANES)
 
@@ -39,3 +41,5 @@ FN Int part_slots(WaveParams w, int part, int sample) {
     Int place = (x & 1) | ((y & 1) << 1) | ((x & 2) << 1) | ((y & 2) << 2);
     return place * w.sample_count + sample;
 }
+
+#endif

@@ -5,6 +5,8 @@
 // scalars). C++: one lane; PARHELION_REAL is float or double, and the file that includes this
 // supplies <cmath> and <cstdint>.
 //
+// Scalar is one value of a Real.
+//
 // Rules for everything written above it: values in, values out; no pointers; no `if` on a Mask
 // except `if (someLane(m))` around work that is merged by sel(); masks combine with & and | and are
 // negated with !; R(1.25) makes a constant of the Real's precision.
@@ -14,6 +16,7 @@
 // OpenCL C
 #pragma OPENCL FP_CONTRACT OFF
 #define FN static inline __attribute__((always_inline))
+#define FN_APART static __attribute__((noinline)) // what is rarely called
 #define R_(x) ((Real)(x##f))
 #define R(x) R_(x)
 
@@ -58,6 +61,7 @@ float16 BUILTIN shuffle(float16, uint16);
 #define PREFETCH(p)
 #endif
 
+typedef float Scalar;
 #if LANES == 1
 typedef float Real;
 typedef int Int;
@@ -172,8 +176,11 @@ FN Real scale_by_power_of_two(Real x, Int n) { return asReal(asInt(x) + n * 8388
 // ------------------------------------------------------------------------------------------------------
 // C++
 #define FN inline
+#define FN_APART inline
 #define LANES 1
+#define PREFETCH(p)
 typedef PARHELION_REAL Real;
+typedef PARHELION_REAL Scalar;
 typedef std::int32_t Int;
 typedef std::uint32_t Uint;
 typedef bool Mask;
@@ -181,7 +188,12 @@ typedef bool Mask;
 #define toReal(x) ((Real)(x))
 #define toInt(x) ((std::int32_t)(x))
 #define someLane(m) (m)
+#define maskBits(m) ((Uint)(m))
 #define LANE_INDEX 0
+#define lanesOf(bits) ((Mask)(bits))
+#define lowestLane(v) (v)
+#define lowestLaneInt(v) (v)
+#define highestLane(v) (v)
 FN Int asInt(Uint x) { return (Int)x; }
 FN Uint asUint(Int x) { return (Uint)x; }
 FN Real sqrtR(Real x) { return std::sqrt(x); }

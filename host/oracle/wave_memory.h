@@ -1,0 +1,50 @@
+// What kernels on the host read and write: the scene's arrays, and the work buffers with floats or
+// doubles in them.
+#pragma once
+
+#include "host/render/scene_arrays.h"
+#include "host/render/stages.h"
+#include "host/render/wave_stream.h"
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+namespace parhelion {
+
+/// The type of a work buffer's elements where the kernels count in Reals; an int among Reals takes
+/// the first bytes of one.
+template<class Real, class T>
+using WorkElement = std::conditional_t<std::is_same_v<T, float>, Real, T>;
+
+#define WORK_MEMBER(type, name) std::vector<WorkElement<Real, type>> name;
+template<class Real>
+struct WaveMemory {
+    WORK_BUFFERS(WORK_MEMBER)
+
+    /// All zero.
+    explicit WaveMemory(const WorkSizes& s)
+        : path_state(path_field_count * s.state_stride()),
+          shadow_state(shadow_field_count * s.state_stride()),
+          results(s.result_channels() * s.result_stride()),
+          counts(2 * static_cast<std::size_t>(s.segments)),
+          statistics(statistic_count *
+                     static_cast<std::size_t>(std::max(s.segments, s.blocks_per_wave))),
+          film(2 * s.film_channels * s.film_stride()) {}
+};
+#undef WORK_MEMBER
+
+/// A launch of one work-item of a stage needs all of this.
+template<class Real>
+struct HostLaunch {
+    SceneArrays scene;
+    RenderParams params;
+    std::uint64_t features; ///< of the kernels, a mask over enum Feature
+    WaveParams wave;
+    WaveMemory<Real>& memory;
+};
+
+/// Runs one work-item of a stage.
+void run_work_item(Stage stage, const HostLaunch<float>& launch, int depth, int number);
+
+} // namespace parhelion
