@@ -73,21 +73,6 @@ void check(bool good, const std::string& option, const std::string& accepted) {
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
 
-void check_options(const CompareOptions& options) {
-    for (const LimitKind& kind : limit_kinds)
-        if (const std::optional<double>& limit = options.*kind.limit)
-            check(not_negative(*limit), std::string("--") + kind.name, "a number, 0 or more");
-    check(not_negative(options.figures.epsilon), "--epsilon", "a number, 0 or more");
-    check(positive(options.figures.pixels_per_degree), "--ppd", "a number above 0");
-    // Larger ones only make filters that no image is large enough for.
-    check(options.figures.pixels_per_degree <= 10000.0, "--ppd", "at most 10000");
-    check(positive(options.test.samples), "--spp", "a number above 0");
-    check(positive(options.test.reference_samples.value_or(1.0)), "--reference-spp",
-          "a number above 0");
-    check(options.test.alpha > 0.0 && options.test.alpha < 1.0, "--alpha", "between 0 and 1");
-    check(not_negative(options.test.variance_floor), "--variance-floor", "a number, 0 or more");
-}
-
 std::vector<Option> limit_options(CompareOptions& c) {
     std::vector<Option> options;
     options.reserve(limit_kinds.size());
@@ -124,6 +109,34 @@ std::vector<Option> z_test_options(CompareOptions& c) {
 
 } // namespace
 
+std::vector<Option> compare_options(CompareOptions& c) {
+    std::vector<Option> options{
+        {"A", &c.image, "Image (.exr)", {.required = true}},
+        {"B", &c.reference, "Reference (.exr)", {.required = true}},
+        {"--json", &c.json, "Report as one JSON object"},
+        {"--layer", &c.figures.layer, "Compare the channels NAME.* instead of the main layer"},
+        {"--epsilon", &c.figures.epsilon, "relMSE is the mean of (A - B)^2 / (B^2 + epsilon)"},
+        {"--ppd", &c.figures.pixels_per_degree, "FLIP's pixels per degree"}};
+    for (const std::vector<Option>& more : {limit_options(c), z_test_options(c)})
+        options.insert(options.end(), more.begin(), more.end());
+    return options;
+}
+
+void check_options(const CompareOptions& options) {
+    for (const LimitKind& kind : limit_kinds)
+        if (const std::optional<double>& limit = options.*kind.limit)
+            check(not_negative(*limit), std::string("--") + kind.name, "a number, 0 or more");
+    check(not_negative(options.figures.epsilon), "--epsilon", "a number, 0 or more");
+    check(positive(options.figures.pixels_per_degree), "--ppd", "a number above 0");
+    // Larger ones only make filters that no image is large enough for.
+    check(options.figures.pixels_per_degree <= 10000.0, "--ppd", "at most 10000");
+    check(positive(options.test.samples), "--spp", "a number above 0");
+    check(positive(options.test.reference_samples.value_or(1.0)), "--reference-spp",
+          "a number above 0");
+    check(options.test.alpha > 0.0 && options.test.alpha < 1.0, "--alpha", "between 0 and 1");
+    check(not_negative(options.test.variance_floor), "--variance-floor", "a number, 0 or more");
+}
+
 int run_compare(const CompareOptions& options, std::ostream& out) {
     check_options(options);
     const Image image = read_exr(options.image), reference = read_exr(options.reference);
@@ -149,7 +162,7 @@ int run_compare(const CompareOptions& options, std::ostream& out) {
 
 Subcommand compare_subcommand() {
     const auto c = std::make_shared<CompareOptions>();
-    Subcommand compare{
+    return {
         .name = "compare",
         .summary = "Compare two EXR images; exit code 0 within the limits given (or none given), "
                    "1 not, 2 unusable input",
@@ -158,19 +171,9 @@ Subcommand compare_subcommand() {
             "  parhelion compare image.exr reference.exr\n"
             "  parhelion compare image.exr reference.exr --relmse 1e-3 --bias 0.005 --json\n"
             "  parhelion compare image.exr reference.exr --variance variance.exr --spp 64",
-        .options = {{"A", &c->image, "Image (.exr)", {.required = true}},
-                    {"B", &c->reference, "Reference (.exr)", {.required = true}},
-                    {"--json", &c->json, "Report as one JSON object"},
-                    {"--layer", &c->figures.layer,
-                     "Compare the channels NAME.* instead of the main layer"},
-                    {"--epsilon", &c->figures.epsilon,
-                     "relMSE is the mean of (A - B)^2 / (B^2 + epsilon)"},
-                    {"--ppd", &c->figures.pixels_per_degree, "FLIP's pixels per degree"}},
+        .options = compare_options(*c),
         .run = [c] { return run_compare(*c, std::cout); },
     };
-    for (const std::vector<Option>& more : {limit_options(*c), z_test_options(*c)})
-        compare.options.insert(compare.options.end(), more.begin(), more.end());
-    return compare;
 }
 
 } // namespace parhelion

@@ -7,6 +7,7 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace parhelion {
 
@@ -27,6 +28,12 @@ struct CompareOptions {
 /// its limit (or no limit was given), different where not. Throws InputError (exit code bad_input)
 /// for files that cannot be compared; nothing has been printed then.
 int run_compare(const CompareOptions& options, std::ostream& out);
+
+/// The options of `compare`, which write to `options`.
+std::vector<Option> compare_options(CompareOptions& options);
+
+/// Throws InputError for what cannot be, whatever the images.
+void check_options(const CompareOptions& options);
 
 /// Its run prints to standard output.
 Subcommand compare_subcommand();

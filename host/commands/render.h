@@ -35,8 +35,14 @@ void apply_overrides(const RenderCommand& command, Scene& scene);
 
 Subcommand render_subcommand();
 
-/// The options that have a say in which kernels an image needs.
+/// All options of `render`, which write to `command`.
+std::vector<Option> render_options(RenderCommand& command);
+
+/// Those of them that have a say in which kernels an image needs.
 std::vector<Option> kernel_options(RenderCommand& command);
+
+/// Throws InputError for what cannot be, whatever the scene and the files there are.
+void check_command(const RenderCommand& command);
 
 /// Throws InputError for a split that cannot be.
 void check_split(const RenderOptions& options);

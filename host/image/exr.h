@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace parhelion {
 
@@ -18,6 +19,9 @@ namespace parhelion {
 /// subsampled channels, parts of different windows, and uint values of 2^24 and more (a float
 /// cannot hold each of them).
 Image read_exr(const std::string& file);
+
+/// The same of a file's bytes at hand, called `name` in messages.
+Image parse_exr(std::string_view bytes, const std::string& name);
 
 struct ExrOptions {
     ComponentFormat component = ComponentFormat::float32;

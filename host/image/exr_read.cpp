@@ -208,7 +208,8 @@ void read_part(const ExrSource& source, Imf::MultiPartInputFile& input, int inde
 
 /// The library's own conversion from Y RY BY to R G B (A).
 void read_luminance_chroma(const ExrSource& source, bool has_alpha, Image& image) {
-    Imf::RgbaInputFile input(source.file.c_str());
+    source.stream->seekg(0);
+    Imf::RgbaInputFile input(*source.stream);
     const Imath::Box2i window = input.dataWindow();
     const std::array<const char*, 4> names{"R", "G", "B", "A"};
     const std::size_t count = has_alpha ? 4 : 3;
@@ -229,7 +230,7 @@ void read_luminance_chroma(const ExrSource& source, bool has_alpha, Image& image
 
 Image read_checked(const ExrSource& source) {
     // A table of chunks that is broken is an error, not something to rebuild by guessing.
-    Imf::MultiPartInputFile input(source.file.c_str(), 0, false);
+    Imf::MultiPartInputFile input(*source.stream, 0, false);
     for (int part = 0; part < input.parts(); ++part)
         check_part(source, input, part);
     const Imf::Header& header = input.header(0);
@@ -245,12 +246,9 @@ Image read_checked(const ExrSource& source) {
     return image;
 }
 
-} // namespace
-
-Image read_exr(const std::string& file) {
-    const ExrSource source = open_exr(file);
+Image read_source(const ExrSource& source) {
     try {
-        check_attribute_sizes(source);
+        check_header(source);
         return read_checked(source);
     } catch (const InputError&) {
         throw;
@@ -258,12 +256,21 @@ Image read_exr(const std::string& file) {
         source.refuse("not enough memory to read it");
     } catch (const std::exception& error) {
         std::string reason = error.what();
-        const std::string opening = "\"" + file + "\". "; // the library names the file as well
+        const std::string opening =
+            "\"" + source.file + "\". "; // the library names the file as well
         if (const std::size_t at = reason.find(opening); at != std::string::npos)
             reason.erase(0, at + opening.size());
         std::replace(reason.begin(), reason.end(), '\n', ' ');
         source.refuse("cannot be read as OpenEXR: " + reason);
     }
+}
+
+} // namespace
+
+Image read_exr(const std::string& file) { return read_source(open_exr(file)); }
+
+Image parse_exr(std::string_view bytes, const std::string& name) {
+    return read_source(exr_in_memory(bytes, name));
 }
 
 } // namespace parhelion

@@ -3,11 +3,12 @@
 
 #include "host/error.h"
 
-#include <ImfIO.h>
+#include <Iex.h>
 #include <ImfStdIO.h>
 #include <ImfVersion.h>
 #include <ImfXdr.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -17,6 +18,27 @@
 namespace parhelion {
 
 namespace {
+
+class MemoryStream : public Imf::IStream {
+public:
+    MemoryStream(std::string_view bytes, const std::string& name)
+        : Imf::IStream(name.c_str()), bytes_(bytes) {}
+
+    bool read(char* target, int count) override {
+        const auto wanted = static_cast<std::size_t>(count);
+        if (count < 0 || at_ > bytes_.size() || wanted > bytes_.size() - at_)
+            throw Iex::InputExc("Unexpected end of file.");
+        std::copy_n(bytes_.data() + at_, wanted, target);
+        at_ += wanted;
+        return at_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t position) override { at_ = position; }
+
+private:
+    std::string_view bytes_;
+    std::uint64_t at_ = 0;
+};
 
 using Name = std::array<char, 256>; ///< the longest name the format has, with its end
 
@@ -61,22 +83,28 @@ ExrSource open_exr(const std::string& file) {
     if (!std::filesystem::is_regular_file(status)) throw InputError(file + ": not a regular file");
     const auto bytes = std::filesystem::file_size(file, error);
     if (error) throw InputError(file + ": cannot open: " + error.message());
-    const ExrSource source{file, static_cast<std::int64_t>(bytes)};
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) source.refuse(std::string("cannot open: ") + std::strerror(errno));
-    std::array<char, 4> magic{};
-    stream.read(magic.data(), magic.size());
-    if (!stream || !Imf::isImfMagic(magic.data())) source.refuse("not an OpenEXR file");
-    return source;
+    if (!std::ifstream(file, std::ios::binary))
+        throw InputError(file + ": cannot open: " + std::strerror(errno));
+    return {file, static_cast<std::int64_t>(bytes),
+            std::make_unique<Imf::StdIFStream>(file.c_str())};
 }
 
-void check_attribute_sizes(const ExrSource& source) {
-    Imf::StdIFStream stream(source.file.c_str());
-    read_number<int>(stream); // the magic number
+ExrSource exr_in_memory(std::string_view bytes, const std::string& name) {
+    return {name, static_cast<std::int64_t>(bytes.size()),
+            std::make_unique<MemoryStream>(bytes, name)};
+}
+
+void check_header(const ExrSource& source) {
+    Imf::IStream& stream = *source.stream;
+    std::array<char, 4> magic{};
+    const bool complete = source.bytes >= static_cast<std::int64_t>(magic.size());
+    if (complete) stream.read(magic.data(), magic.size());
+    if (!complete || !Imf::isImfMagic(magic.data())) source.refuse("not an OpenEXR file");
     const int version = read_number<int>(stream);
     // A file of several parts ends its headers with one that has no attributes.
     while (skip_header(source, stream) > 0 && Imf::isMultiPart(version)) {
     }
+    stream.seekg(0);
 }
 
 } // namespace parhelion

@@ -188,10 +188,9 @@ void add_faces(VertexTable& table, const tinyobj::mesh_t& faces, const SourceLoc
 
 } // namespace
 
-MeshData load_obj(const std::filesystem::path& path, bool flip_v, const SourceLocation& place) {
-    const SourceLocation file{path.string(), 0};
-    std::string text = read_whole_file(path, place, max_obj_bytes);
-    TextCheck(file.file).check(text);
+MeshData parse_obj(std::string text, bool flip_v, const std::string& name) {
+    const SourceLocation file{name, 0};
+    TextCheck(name).check(text);
     tinyobj::attrib_t attributes;
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
@@ -213,6 +212,10 @@ MeshData load_obj(const std::filesystem::path& path, bool flip_v, const SourceLo
     if (std::all_of(table.mesh.normals.begin(), table.mesh.normals.end(), is_zero))
         table.mesh.normals.clear();
     return std::move(table.mesh);
+}
+
+MeshData load_obj(const std::filesystem::path& path, bool flip_v, const SourceLocation& place) {
+    return parse_obj(read_whole_file(path, place, max_obj_bytes), flip_v, path.string());
 }
 
 } // namespace parhelion

@@ -4,6 +4,7 @@
 #include "host/scene/mesh_data.h"
 
 #include <filesystem>
+#include <string>
 
 namespace parhelion {
 
@@ -11,5 +12,8 @@ namespace parhelion {
 /// turns the texture's v into 1 - v. Materials, groups, lines and points are not read.
 /// Throws InputError "<path>:<line>: ..." for what cannot be read, `place` standing for the asker.
 MeshData load_obj(const std::filesystem::path& path, bool flip_v, const SourceLocation& place);
+
+/// The same of a text at hand, called `name` in messages.
+MeshData parse_obj(std::string text, bool flip_v, const std::string& name);
 
 } // namespace parhelion

@@ -232,10 +232,9 @@ void skip_element(PlyData& data, const PlyElement& element) {
 
 } // namespace
 
-MeshData load_ply(const std::filesystem::path& path, bool flip_v, const SourceLocation& place) {
-    const SourceLocation file_place{path.string(), 0};
-    const std::string file = read_whole_file(path, place, max_file_bytes);
-    const PlyHeader header = read_ply_header(file, file_place.file);
+MeshData parse_ply(std::string_view file, bool flip_v, const std::string& name) {
+    const SourceLocation file_place{name, 0};
+    const PlyHeader header = read_ply_header(file, name);
     PlyData data(file, header, file_place);
     MeshData mesh;
     bool vertices = false, faces = false;
@@ -258,6 +257,10 @@ MeshData load_ply(const std::filesystem::path& path, bool flip_v, const SourceLo
         mesh.notes.push_back(file_place.file + ": data after the last element is not used");
     if (!faces) refuse(file_place, "the PLY file has no \"face\" element (points are not drawn)");
     return mesh;
+}
+
+MeshData load_ply(const std::filesystem::path& path, bool flip_v, const SourceLocation& place) {
+    return parse_ply(read_whole_file(path, place, max_file_bytes), flip_v, path.string());
 }
 
 } // namespace parhelion

@@ -4,6 +4,8 @@
 #include "host/scene/mesh_data.h"
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 namespace parhelion {
 
@@ -12,5 +14,8 @@ namespace parhelion {
 /// are skipped with a note. `flip_v` turns v into 1 - v.
 /// Throws InputError "<path>:<line>: ..." for what cannot be read, `place` standing for the asker.
 MeshData load_ply(const std::filesystem::path& path, bool flip_v, const SourceLocation& place);
+
+/// The same of a file's bytes at hand, called `name` in messages.
+MeshData parse_ply(std::string_view file, bool flip_v, const std::string& name);
 
 } // namespace parhelion

@@ -147,10 +147,9 @@ void read_triangles(InflateStream& stream, std::uint64_t count, MeshData& mesh,
 
 } // namespace
 
-SerializedMesh load_serialized(const std::filesystem::path& path, std::int64_t shape_index,
-                               const SourceLocation& place) {
-    const SourceLocation file_place{path.string(), 0};
-    const std::string file = read_whole_file(path, place, max_file_bytes);
+SerializedMesh parse_serialized(std::string_view file, std::int64_t shape_index,
+                                const std::string& name) {
+    const SourceLocation file_place{name, 0};
     if (read_at<std::uint16_t>(file, 0, file_place) != magic)
         refuse(file_place, "not a serialized mesh: the first two bytes are wrong");
     const auto version = read_at<std::uint16_t>(file, 2, file_place);
@@ -160,7 +159,7 @@ SerializedMesh load_serialized(const std::filesystem::path& path, std::int64_t s
     const std::size_t start = mesh_offset(file, shape_index, version, file_place);
     if (read_at<std::uint16_t>(file, start, file_place) != magic || file.size() - start < 4)
         refuse(file_place, "the table of meshes is damaged");
-    InflateStream stream(std::string_view(file).substr(start + 4), file_place);
+    InflateStream stream(file.substr(start + 4), file_place);
     const auto flags = stream.value<std::uint32_t>();
     if (version == 4)
         while (stream.value<char>() != '\0') {
@@ -185,6 +184,12 @@ SerializedMesh load_serialized(const std::filesystem::path& path, std::int64_t s
     read_triangles(stream, triangles, mesh, file_place);
     result.face_normals = (flags & face_normals) != 0;
     return result;
+}
+
+SerializedMesh load_serialized(const std::filesystem::path& path, std::int64_t shape_index,
+                               const SourceLocation& place) {
+    return parse_serialized(read_whole_file(path, place, max_file_bytes), shape_index,
+                            path.string());
 }
 
 } // namespace parhelion

@@ -4,6 +4,8 @@
 #include "host/scene/mesh_data.h"
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 namespace parhelion {
 
@@ -15,5 +17,9 @@ struct SerializedMesh {
 /// Mesh number `shape_index` (from 0) of the file. Throws InputError.
 SerializedMesh load_serialized(const std::filesystem::path& path, std::int64_t shape_index,
                                const SourceLocation& place);
+
+/// The same of a file's bytes at hand, called `name` in messages.
+SerializedMesh parse_serialized(std::string_view file, std::int64_t shape_index,
+                                const std::string& name);
 
 } // namespace parhelion

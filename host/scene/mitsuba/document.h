@@ -16,6 +16,8 @@
 
 namespace parhelion::mitsuba {
 
+class XmlFile;
+
 using Value = std::variant<bool, std::int64_t, double, std::string, glm::dvec3, RgbValue,
                            SpectrumValue, glm::dmat4>;
 
@@ -50,7 +52,8 @@ struct Document {
 };
 
 /// Reads an XML scene with all its includes: parameters substituted, old versions upgraded,
-/// references resolved and free of cycles. Throws InputError.
-Document read_document(const std::string& file, const LoadOptions& options);
+/// references resolved and free of cycles. Its folder is the one in the name of `xml`. Throws
+/// InputError.
+Document read_document(const XmlFile& xml, const LoadOptions& options);
 
 } // namespace parhelion::mitsuba

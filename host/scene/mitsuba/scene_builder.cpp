@@ -3,6 +3,7 @@
 
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
+#include "host/scene/mitsuba/xml_file.h"
 #include "host/scene/text.h"
 
 #include <map>
@@ -165,7 +166,11 @@ Scene SceneBuilder::build(const std::string& file) {
 } // namespace
 
 Scene load_xml_scene(const std::string& file, const LoadOptions& options) {
-    return SceneBuilder(read_document(file, options)).build(file);
+    return parse_xml_scene(read_xml_file(file, {file, 0}), options);
+}
+
+Scene parse_xml_scene(const XmlFile& xml, const LoadOptions& options) {
+    return SceneBuilder(read_document(xml, options)).build(xml.name());
 }
 
 } // namespace parhelion::mitsuba

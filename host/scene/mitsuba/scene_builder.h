@@ -5,7 +5,12 @@
 
 namespace parhelion::mitsuba {
 
+class XmlFile;
+
 /// Loads an existing XML file. Throws InputError.
 Scene load_xml_scene(const std::string& file, const LoadOptions& options);
+
+/// The same of a file at hand; what its scene names is looked for in the folder of its name.
+Scene parse_xml_scene(const XmlFile& xml, const LoadOptions& options);
 
 } // namespace parhelion::mitsuba

@@ -1,4 +1,4 @@
-// One XML file on disk: parsed, with line numbers, and without the dangerous parts of XML.
+// One XML file: parsed, with line numbers, and without the dangerous parts of XML.
 #include "host/scene/mitsuba/xml_file.h"
 
 #include "host/scene/file_finder.h"
@@ -22,8 +22,8 @@ bool is_plain_reference(std::string_view after_ampersand) {
 
 } // namespace
 
-XmlFile::XmlFile(const std::filesystem::path& path, const SourceLocation& asked_from)
-    : name_(path.string()), text_(read_whole_file(path, asked_from, max_xml_bytes)) {
+XmlFile::XmlFile(std::string name, std::string text)
+    : name_(std::move(name)), text_(std::move(text)) {
     line_starts_.push_back(0);
     for (std::size_t i = 0; i < text_.size(); ++i)
         if (text_[i] == '\n') line_starts_.push_back(i + 1);
@@ -68,6 +68,10 @@ SourceLocation XmlFile::location_of_offset(std::ptrdiff_t offset) const {
     const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(),
                                        static_cast<std::size_t>(offset));
     return {name_, static_cast<int>(next - line_starts_.begin())};
+}
+
+XmlFile read_xml_file(const std::filesystem::path& path, const SourceLocation& asked_from) {
+    return {path.string(), read_whole_file(path, asked_from, max_xml_bytes)};
 }
 
 void check_attributes(const XmlFile& xml, pugi::xml_node node,

@@ -1,4 +1,4 @@
-// One XML file on disk: parsed, with line numbers, and without the dangerous parts of XML.
+// One XML file: parsed, with line numbers, and without the dangerous parts of XML.
 #pragma once
 
 #include "host/error.h"
@@ -15,10 +15,9 @@ namespace parhelion::mitsuba {
 
 class XmlFile {
 public:
-    /// Throws InputError for a file that is not well-formed UTF-8 XML, or that holds a document
+    /// Throws InputError for a text that is not well-formed UTF-8 XML, or that holds a document
     /// type or an entity beyond the five of XML itself.
-    /// `asked_from` is the place of the <include>, or the file itself.
-    XmlFile(const std::filesystem::path& path, const SourceLocation& asked_from);
+    XmlFile(std::string name, std::string text);
 
     pugi::xml_node root() const { return document_.document_element(); }
     SourceLocation location(pugi::xml_node node) const;
@@ -33,6 +32,10 @@ private:
     std::vector<std::size_t> line_starts_;
     pugi::xml_document document_;
 };
+
+/// Throws InputError for a file that cannot be read, and as XmlFile does. `asked_from` is the place
+/// of the <include>, or the file itself.
+XmlFile read_xml_file(const std::filesystem::path& path, const SourceLocation& asked_from);
 
 /// Refuses attributes that are not in `allowed`, and missing ones that are marked by a leading '!'.
 void check_attributes(const XmlFile& xml, pugi::xml_node node,

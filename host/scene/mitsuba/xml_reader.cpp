@@ -62,7 +62,7 @@ public:
         : document_{{}, FileFinder(file, options.allow_outside), {}},
           substitution_(options.parameters) {}
 
-    Document read(const std::string& file, const LoadOptions& options);
+    Document read(const XmlFile& xml, const LoadOptions& options);
 
 private:
     struct Source {
@@ -98,8 +98,7 @@ void Reader::substitute(const Source& source, pugi::xml_node node) {
             substitute(source, step);
 }
 
-Document Reader::read(const std::string& file, const LoadOptions& options) {
-    const XmlFile xml(file, {file, 0});
+Document Reader::read(const XmlFile& xml, const LoadOptions& options) {
     const pugi::xml_node root = xml.root();
     const SourceLocation place = xml.location(root);
     if (std::string_view(root.name()) != "scene")
@@ -111,7 +110,7 @@ Document Reader::read(const std::string& file, const LoadOptions& options) {
     resolve_references(document_, ids_);
     for (const auto& [name, value] : options.parameters)
         if (!substitution_.used(name))
-            throw InputError("-D " + name + "=" + value + ": " + file + " uses no $" + name);
+            throw InputError("-D " + name + "=" + value + ": " + xml.name() + " uses no $" + name);
     return std::move(document_);
 }
 
@@ -187,7 +186,8 @@ void Reader::read_include(const Source& source, pugi::xml_node node, std::size_t
                "files include each other more than " + std::to_string(max_include_depth) + " deep");
     if (++includes_ > max_includes)
         refuse(place, "more than " + std::to_string(max_includes) + " files are included");
-    const XmlFile xml(document_.files.file(node.attribute("filename").value(), place), place);
+    const XmlFile xml =
+        read_xml_file(document_.files.file(node.attribute("filename").value(), place), place);
     pugi::xml_node root = xml.root();
     if (!root.attribute("version"))
         refuse(xml.location(root), "the root element lacks the attribute \"version\"");
@@ -254,8 +254,8 @@ void Reader::read_parameter(const Source& source, pugi::xml_node node, std::size
 
 } // namespace
 
-Document read_document(const std::string& file, const LoadOptions& options) {
-    return Reader(file, options).read(file, options);
+Document read_document(const XmlFile& xml, const LoadOptions& options) {
+    return Reader(xml.name(), options).read(xml, options);
 }
 
 } // namespace parhelion::mitsuba
