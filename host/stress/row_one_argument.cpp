@@ -29,11 +29,12 @@ struct OneArgument {
     std::string name;
     f32::Real (*function)(f32::Uint);
     std::array<Range, 2> ranges;
+    std::uint32_t step; ///< from one argument to the next
 };
 
 std::vector<OneArgument> functions() {
-#define LIST_FUNCTION(name, first, last, first2, last2)                                            \
-    {#name, f32::one_##name, {{{first, last}, {first2, last2}}}},
+#define LIST_FUNCTION(name, first, last, first2, last2, step)                                      \
+    {#name, f32::one_##name, {{{first, last}, {first2, last2}}}, step},
     return {ONE_ARGUMENT_FUNCTIONS(LIST_FUNCTION)};
 }
 
@@ -94,9 +95,10 @@ struct Worker {
         kernel.setArg(0, out.handle());
     }
 
-    void run(std::uint32_t first, int which) {
+    void run(std::uint32_t first, std::uint32_t step, int which) {
         kernel.setArg(1, cl_uint{first});
-        kernel.setArg(2, which);
+        kernel.setArg(2, cl_uint{step});
+        kernel.setArg(3, which);
         queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(batch / chunk),
                                    cl::NDRange(1));
         out.read(queue, values.data());
@@ -106,10 +108,10 @@ struct Worker {
 /// The arguments of a range from `first` on that fit into a batch.
 Finding try_batch(Worker& w, const OneArgument& f, int which, const Accuracy& a,
                   std::uint32_t first, std::uint32_t last) {
-    w.run(first, which);
+    w.run(first, f.step, which);
     Finding found;
-    for (std::uint32_t i = 0; i < batch && i <= last - first; i++) {
-        std::uint32_t bits = first + i;
+    for (std::uint32_t i = 0; i < batch && i <= (last - first) / f.step; i++) {
+        std::uint32_t bits = first + i * f.step;
         float host = f.function(bits);
         found.tried++;
         found.differing += !same_bits(host, w.values[i]);
@@ -127,12 +129,12 @@ Finding try_all(StressRun& run, const OneArgument& f, int which, std::uint32_t s
     Finding all;
     for (Range range : f.ranges) {
         if (range.first > range.last) continue;
-        std::size_t batches = (range.last - range.first) / batch + 1;
+        std::size_t batches = (range.last - range.first) / f.step / batch + 1;
         std::vector<Finding> found(batches);
         std::atomic<std::size_t> finished = 0;
         tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t i) {
             if (i % stride != 0 && i + 1 != batches) return;
-            auto first = range.first + static_cast<std::uint32_t>(i) * batch;
+            auto first = range.first + static_cast<std::uint32_t>(i) * batch * f.step;
             found[i] = try_batch(workers.local(), f, which, a, first, range.last);
             run.done(static_cast<double>(finished += stride) / static_cast<double>(batches));
         });

@@ -8,10 +8,15 @@ namespace parhelion::stress {
 // name, chapter, title
 // clang-format off
 #define STRESS_ROWS(X)                                                                             \
-    X(one_argument,      "Functions", "Functions of one number, at every float of their domain")   \
-    X(same_bits,         "Functions", "Host and device compute the same bits, every shared function on wild inputs") \
-    X(leaks,             "Rays", "Rays at edges and corners of closed meshes never get out")       \
-    X(self_hits,         "Rays", "Rays that leave a triangle do not hit it again")
+    X(one_argument,   "Functions", "Functions of one number, at every float of their domain")      \
+    X(same_bits,      "Functions", "Host and device compute the same bits: every shared function on wild inputs") \
+    X(leaks,          "Rays", "Rays at edges and corners of closed meshes never get out")          \
+    X(brute_force,    "Rays", "The tree finds what trying every primitive finds")                  \
+    X(self_hits,      "Rays", "Rays that leave a triangle hit neither it nor what lies in its plane") \
+    X(occlusion,      "Rays", "Shadow rays are blocked by what is in their way and by nothing else") \
+    X(nested_spheres, "Rays", "Of two spheres 4e-6 apart the nearer one shows") \
+    X(density,        "Statistics", "Samples of every material follow its density (chi-square, Sidak)") \
+    X(furnace,        "Statistics", "No material returns more than it receives")
 // clang-format on
 
 #define DECLARE_ROW(name, chapter, title) Checks row_##name(StressRun& run);

@@ -61,8 +61,8 @@ FN EmitterSample emitter_area_parallelogram_sample(Light l, vec3 p, vec2 u) {
     vec3 q = add3(a, add3(scale3(e1, b.x), scale3(e2, b.y)));
     vec3 size = add3(abs3(a), add3(scale3(add3(abs3(light_b(l)), abs3(a)), b.x),
                                    scale3(add3(abs3(light_c(l)), abs3(a)), b.y)));
-    EmitterSample s =
-        emitter_area_finish(l, p, q, scale3(size, GAMMA(7.f)), light_corners_normal(l));
+    vec3 error = emitter_corners_error(l, p, scale3(size, GAMMA(7.f)));
+    EmitterSample s = emitter_area_finish(l, p, q, error, light_corners_normal(l));
     return emitter_solid_angle_finish(l, s, wide, seen.solid_angle);
 }
 

@@ -33,8 +33,9 @@ FN EmitterSample emitter_area_triangle_sample(Light l, vec3 p, vec2 u) {
         b.y = sel(wide, minR(maxR(at.y, R(0.)), R(1.) - b1), b.y);
     }
     vec3 error = scale3(interpolate3(abs3(a0), abs3(a1), abs3(a2), b.x, b.y), GAMMA(7.f));
-    EmitterSample s = emitter_area_finish(l, p, interpolate3(a0, a1, a2, b.x, b.y), error,
-                                          light_corners_normal(l));
+    EmitterSample s =
+        emitter_area_finish(l, p, interpolate3(a0, a1, a2, b.x, b.y),
+                            emitter_corners_error(l, p, error), light_corners_normal(l));
     return emitter_solid_angle_finish(l, s, wide, seen.solid_angle);
 }
 

@@ -6,12 +6,12 @@ FN Real one_exp_negative(Uint bits) { return exp_negative(intWord(bits)); }
 FN Real one_acos(Uint bits) { return acosR(intWord(bits)); }
 FN Real one_uniform01(Uint bits) { return uniform01(bits); }
 
-// name; first and last bits of each of two ranges of arguments
+// name; first and last bits of each of two ranges of arguments; from one to the next
 // clang-format off
 #define ONE_ARGUMENT_FUNCTIONS(X)                                                                  \
-    X(sine,         0x00000000u, 0x3f800000u, 1u, 0u)                   /* turns, 0 to 1 */        \
-    X(cosine,       0x00000000u, 0x3f800000u, 1u, 0u)                                              \
-    X(exp_negative, 0x80000000u, 0xc2ae999au, 1u, 0u)                   /* -0 to -87.3 */          \
-    X(acos,         0x00000000u, 0x3f800000u, 0x80000000u, 0xbf800000u) /* 0 to 1, -0 to -1 */     \
-    X(uniform01,    0x00000000u, 0xffffffffu, 1u, 0u)                   /* integers */
+    X(sine,         0x00000000u, 0x3f800000u, 1u, 0u, 1)                   /* turns, 0 to 1 */        \
+    X(cosine,       0x00000000u, 0x3f800000u, 1u, 0u, 1)                                              \
+    X(exp_negative, 0x80000000u, 0xc2ae999au, 1u, 0u, 1)                   /* -0 to -87.3 */          \
+    X(acos,         0x00000000u, 0x3f800000u, 0x80000000u, 0xbf800000u, 1) /* 0 to 1, -0 to -1 */     \
+    X(uniform01,    0x00000000u, 0xffffffffu, 1u, 0u, 255)                 /* integers, whose last 8 bits do not count */
 // clang-format on

@@ -2,7 +2,7 @@
 // another renderer.
 #include "tests/render/closed_form_truth.h"
 #include "tests/support/render_scene.h"
-#include "tests/support/statistics.h"
+#include "host/stress/statistics.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -13,6 +13,7 @@
 namespace {
 
 using namespace parhelion;
+using namespace parhelion::stress;
 using closed_form::Check;
 using closed_form::Row;
 

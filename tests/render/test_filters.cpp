@@ -3,7 +3,7 @@
 #include "host/render/filter_table.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/render_scene.h"
-#include "tests/support/statistics.h"
+#include "host/stress/statistics.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -14,6 +14,7 @@
 namespace {
 
 using namespace parhelion;
+using namespace parhelion::stress;
 
 constexpr int width = 18, height = 6, seeds = 8;
 constexpr double edge = 8.3; // pixels from the left of the film

@@ -1,12 +1,13 @@
 // Many lights: choosing by what they send to a point changes the noise and not the image.
 #include "tests/support/many_lights_scene.h"
 #include "tests/support/render_scene.h"
-#include "tests/support/statistics.h"
+#include "host/stress/statistics.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 using namespace parhelion;
+using namespace parhelion::stress;
 using namespace parhelion::test;
 
 namespace {

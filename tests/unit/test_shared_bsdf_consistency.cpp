@@ -1,11 +1,11 @@
 // Every material of the list: sample, eval and pdf tell one story; reciprocity; energy.
 #include <catch2/catch.hpp>
 
-#include "tests/support/materials.h"
-#include "tests/support/statistics.h"
+#include "host/stress/materials.h"
+#include "host/stress/statistics.h"
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::stress;
 
 namespace {
 

@@ -1,12 +1,12 @@
 // Every material of the list: samples follow the density that eval and sample claim (chi-square).
 #include <catch2/catch.hpp>
 
-#include "tests/support/direction_bins.h"
-#include "tests/support/materials.h"
-#include "tests/support/statistics.h"
+#include "host/stress/direction_bins.h"
+#include "host/stress/materials.h"
+#include "host/stress/statistics.h"
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::stress;
 
 namespace {
 

@@ -2,11 +2,11 @@
 // against closed forms.
 #include <catch2/catch.hpp>
 
-#include "tests/support/materials.h"
-#include "tests/support/statistics.h"
+#include "host/stress/materials.h"
+#include "host/stress/statistics.h"
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::stress;
 
 namespace {
 

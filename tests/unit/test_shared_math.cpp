@@ -1,10 +1,10 @@
 // The elementary functions, frames and microfacet densities in float against double or long double.
 #include <catch2/catch.hpp>
 
-#include "tests/support/materials.h"
+#include "host/stress/materials.h"
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::stress;
 
 TEST_CASE("Maths: sine and cosine of turns within 1.2e-7", "[maths]") {
     Worst worst;

@@ -3,9 +3,10 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/shared_maths.h"
-#include "tests/support/statistics.h"
+#include "host/stress/statistics.h"
 
 using namespace parhelion;
+using namespace parhelion::stress;
 using namespace parhelion::test;
 
 namespace {

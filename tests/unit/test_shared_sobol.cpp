@@ -3,12 +3,13 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/shared_maths.h"
-#include "tests/support/statistics.h"
+#include "host/stress/statistics.h"
 
 #include <array>
 #include <bit>
 
 using namespace parhelion;
+using namespace parhelion::stress;
 using namespace parhelion::test;
 
 namespace {

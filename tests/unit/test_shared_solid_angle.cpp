@@ -2,11 +2,12 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/shared_maths.h"
-#include "tests/support/statistics.h"
+#include "host/stress/statistics.h"
 
 #include <array>
 
 using namespace parhelion;
+using namespace parhelion::stress;
 using namespace parhelion::test;
 
 namespace {

@@ -1,12 +1,12 @@
 // The tests' own statistics: known values, and proof that a wrong density is found out.
 #include <catch2/catch.hpp>
 
-#include "tests/support/direction_bins.h"
-#include "tests/support/quadrature.h"
-#include "tests/support/statistics.h"
+#include "host/stress/direction_bins.h"
+#include "host/stress/quadrature.h"
+#include "host/stress/statistics.h"
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::stress;
 
 TEST_CASE("Statistics: chi-square tail, normal tail and Sidak bound have their known values",
           "[support]") {

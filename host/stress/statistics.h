@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace parhelion::test {
+namespace parhelion::stress {
 
 /// Regularised upper incomplete gamma function Q(a, x), a > 0, x >= 0: series below a + 1, Lentz's
 /// continued fraction above (Abramowitz and Stegun 6.5.29 and 6.5.31).
@@ -110,4 +110,4 @@ private:
     double mean_ = 0, squares_ = 0;
 };
 
-} // namespace parhelion::test
+} // namespace parhelion::stress

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/shared_maths.h"
+#include "host/stress/measure.h"
 
-namespace parhelion::test {
+namespace parhelion::stress {
 
 struct MaterialCase {
     std::string name;
@@ -116,4 +116,4 @@ double component(V v, int channel) {
     return channel == 0 ? v.x : channel == 1 ? v.y : v.z;
 }
 
-} // namespace parhelion::test
+} // namespace parhelion::stress

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace parhelion::test {
+namespace parhelion::stress {
 
 struct Rectangle {
     double x0, x1, y0, y1;
@@ -54,4 +54,4 @@ double integrate(const F& f, const Rectangle& r, double tolerance, int depth = 9
     return integrate(f, r, tolerance, depth, certain, gauss_product(f, r));
 }
 
-} // namespace parhelion::test
+} // namespace parhelion::stress

@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "tests/support/quadrature.h"
-#include "tests/support/shared_maths.h"
+#include "host/stress/measure.h"
+#include "host/stress/quadrature.h"
 
-namespace parhelion::test {
+namespace parhelion::stress {
 
 /// Each hemisphere in the coordinates (1 - |z|, azimuth), whose area is solid angle: a k-d tree of
 /// medians. So cells are small where the density is high, the horizon is a border, and the density
@@ -150,4 +150,4 @@ private:
     std::size_t root_[2];
 };
 
-} // namespace parhelion::test
+} // namespace parhelion::stress

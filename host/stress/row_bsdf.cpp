@@ -1,0 +1,172 @@
+// Every kind of material in the list: its samples follow the density that it states, and no more
+// comes back than went in.
+#include "host/stress/rows.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <string>
+
+#include "host/stress/direction_bins.h"
+#include "host/stress/materials.h"
+#include "host/stress/statistics.h"
+
+namespace parhelion::stress {
+namespace {
+
+struct Configuration {
+    MaterialCase material;
+    f32::vec3 wo;
+};
+
+std::vector<Configuration> configurations(int kind, bool delta) {
+    std::vector<Configuration> list;
+    for (const MaterialCase& c : material_cases()) {
+        if (c.kind != kind) continue;
+        for (f32::vec3 wo : viewer_directions(c))
+            if (is_delta<F32>(make_material<F32>(c), wo) == delta) list.push_back({c, wo});
+    }
+    return list;
+}
+
+std::string text_of(const Configuration& c) {
+    return fmt::format("{}, cosine {:.6g}", c.material.name, c.wo.z);
+}
+
+struct DensityTest {
+    double p_value;   ///< chi-square over directions
+    double p_missing; ///< that as many samples have a finite density as its integral says
+    double integral;  ///< of the density
+};
+
+/// Samples against the density of eval, integrated over cells in double.
+DensityTest test_density(const Configuration& c, std::uint64_t count, std::uint64_t seed) {
+    auto m = make_material<F32>(c.material);
+    auto m64 = make_material<F64>(c.material);
+    Random random(seed);
+    auto draw = [&] {
+        return bsdf_sample(m, c.wo, random.square<F32>(), static_cast<float>(random.unit()));
+    };
+    auto counts = [](const f32::BsdfSample& s) { return s.pdf > 0 && std::isfinite(s.pdf); };
+    std::vector<f32::vec3> pilot;
+    for (int n = 0; n < 16384; n++)
+        if (f32::BsdfSample s = draw(); counts(s)) pilot.push_back(s.wi);
+    DirectionBins bins(pilot, 64);
+    std::vector<double> observed(bins.size() + 1), expected(bins.size() + 1);
+    for (std::uint64_t n = 0; n < count; n++) {
+        f32::BsdfSample s = draw();
+        observed[counts(s) ? bins.find(s.wi) : bins.size()]++;
+    }
+    auto tries = static_cast<double>(count);
+    double scattered = 0;
+    auto density = [&](f64::vec3 wi) { return bsdf_eval(m64, wide(c.wo), wi).pdf; };
+    // Opposite grazing directions have half vectors that turn within a ridge as narrow as the
+    // viewer's height.
+    int certain = std::fabs(c.wo.z) < 0.05 ? 6 : 9;
+    for (std::size_t i = 0; i < bins.size(); i++) {
+        double mass = bins.mass(i, density, std::max(0.1 / tries, 1e-8), certain);
+        expected[i] = tries * mass;
+        scattered += mass;
+    }
+    expected[bins.size()] = tries * std::max(0.0, 1 - scattered);
+    double missing = observed[bins.size()] / tries;
+    // The quadrature's own error: 1e-5, more about that ridge.
+    double sigma = std::sqrt(std::max(missing, 1 / tries) / tries) + (certain < 9 ? 1e-4 : 1e-5);
+    return {chi_square_p(observed, expected), normal_two_sided((missing - (1 - scattered)) / sigma),
+            scattered};
+}
+
+/// The smallest of many p-values, by Sidak's level for as many.
+Checks density_checks(StressRun& run, const std::string& name,
+                      const std::vector<Configuration>& list, std::uint64_t count) {
+    std::vector<DensityTest> tests(list.size());
+    std::atomic<std::size_t> finished = 0;
+    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) {
+        tests[i] = test_density(list[i], count, run.seed + 1000 + i);
+        run.done(static_cast<double>(++finished) / static_cast<double>(list.size()));
+    });
+    double level = sidak_level(0.01, 2 * list.size());
+    Check directions{.name = name + ": chi-square of directions, smallest p",
+                     .value = 1,
+                     .target = level,
+                     .at_least = true,
+                     .unit = "p",
+                     .samples = count * list.size(),
+                     .note = fmt::format("{} views of {} samples", list.size(), count)};
+    Check missing = directions, integral = directions;
+    missing.name = name + ": share without a density, smallest p";
+    integral.name = name + ": integral of the density over 1", integral.value = 0,
+    integral.target = 1e-4, integral.at_least = false, integral.unit = "";
+    for (std::size_t i = 0; i < list.size(); i++) {
+        if (tests[i].p_value < directions.value)
+            directions.value = tests[i].p_value, directions.worst_at = text_of(list[i]);
+        if (tests[i].p_missing < missing.value)
+            missing.value = tests[i].p_missing, missing.worst_at = text_of(list[i]);
+        if (tests[i].integral - 1 > integral.value)
+            integral.value = tests[i].integral - 1, integral.worst_at = text_of(list[i]);
+    }
+    return {directions, missing, integral};
+}
+
+/// Standard errors that the returned power of a white furnace is above 1, the largest of three
+/// channels.
+double power_over_one(const Configuration& c, std::uint64_t count, std::uint64_t seed) {
+    auto m = make_material<F32>(c.material);
+    Random random(seed);
+    std::array<Mean, 3> power;
+    for (std::uint64_t n = 0; n < count; n++) {
+        auto s = bsdf_sample(m, c.wo, random.square<F32>(), static_cast<float>(random.unit()));
+        // Radiance scaled at the interface is turned back into power.
+        auto scaled = f32::scale3(s.weight, s.eta * s.eta);
+        for (int k = 0; k < 3; k++)
+            power[k].add(component(scaled, k));
+    }
+    double worst = -INFINITY;
+    for (const Mean& mean : power)
+        worst = std::max(worst, (mean.mean() - 1) / (mean.error() + 1e-6));
+    return worst;
+}
+
+} // namespace
+
+Checks row_density(StressRun& run) {
+    Checks checks;
+    std::uint64_t count = run.count(20'000, 300'000, 100'000'000);
+#define TEST_KIND(label, sides)                                                                    \
+    if (std::vector<Configuration> list = configurations(material_##label, false); !list.empty())  \
+        for (const Check& check : density_checks(run, #label, list, count))                        \
+            checks.push_back(check);
+    MATERIALS(TEST_KIND)
+    return checks;
+}
+
+Checks row_furnace(StressRun& run) {
+    Checks checks;
+    std::uint64_t count = run.count(20'000, 200'000, 10'000'000);
+    auto test_kind = [&](const std::string& name, int kind) {
+        std::vector<Configuration> list = configurations(kind, false);
+        for (const Configuration& c : configurations(kind, true))
+            list.push_back(c);
+        std::vector<double> over(list.size());
+        tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) {
+            over[i] = power_over_one(list[i], count, run.seed + i);
+        });
+        std::size_t worst = std::max_element(over.begin(), over.end()) - over.begin();
+        double level = sidak_level(0.01, 3 * list.size());
+        checks.push_back({.name = name + ": white furnace, power above 1, smallest p",
+                          .value = normal_two_sided(std::max(over[worst], 0.)),
+                          .target = level,
+                          .at_least = true,
+                          .unit = "p",
+                          .samples = count * list.size(),
+                          .worst_at = text_of(list[worst])});
+    };
+#define FURNACE_KIND(label, sides) test_kind(#label, material_##label);
+    MATERIALS(FURNACE_KIND)
+    return checks;
+}
+
+} // namespace parhelion::stress
