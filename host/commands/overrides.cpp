@@ -110,6 +110,14 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
         scene.integrator.aovs.push_back(aov_request(name));
 }
 
+std::array<int, 2> parse_pixel(const std::string& text, const Film& film) {
+    std::array<int, 2> pixel = parse_integers<2>("--pixel", text, ',', "X,Y, e.g. 12,34");
+    if (pixel[0] < 0 || pixel[1] < 0 || pixel[0] >= film.width || pixel[1] >= film.height)
+        throw InputError(fmt::format("--pixel '{}': must lie inside the film of {}x{} pixels", text,
+                                     film.width, film.height));
+    return pixel;
+}
+
 std::map<std::string, std::string> parse_definitions(const std::vector<std::string>& definitions) {
     std::map<std::string, std::string> parameters;
     for (const std::string& definition : definitions) {

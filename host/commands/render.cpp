@@ -7,6 +7,7 @@
 #include "host/image/exr.h"
 #include "host/image/output.h"
 #include "host/image/png.h"
+#include "host/oracle/host_render.h"
 #include "host/progress.h"
 #include "host/scene/load.h"
 #include "parhelion_version.h"
@@ -61,9 +62,19 @@ void limit_threads(int threads) {
     if (threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
 }
 
+RenderResult render_where_asked(const RenderCommand& command, const Scene& scene,
+                                Progress& progress) {
+    if (in_double(command))
+        return render_on_host(scene, command.options, Precision::double_precision, progress);
+    RenderDevice& device = open_to_the_end(choose_device(command.device));
+    device.compile_beside = compile_in_own_process(device.device);
+    return render(scene, device, command.options, progress);
+}
+
 } // namespace
 
 int run_render(const RenderCommand& command) {
+    if (command.trace) return run_trace(command);
     check_output(command.output, command.force);
     check_command(command);
     limit_threads(command.threads);
@@ -84,9 +95,7 @@ int run_render(const RenderCommand& command) {
     for (const std::string& note : scene.notes)
         progress.note("note: " + note);
 
-    RenderDevice& device = open_to_the_end(choose_device(command.device));
-    device.compile_beside = compile_in_own_process(device.device);
-    RenderResult result = render(scene, device, command.options, progress);
+    RenderResult result = render_where_asked(command, scene, progress);
     result.report.load_seconds = load_seconds;
     add_metadata(scene, result.report, result.image);
     if (result.report.non_finite_samples > 0)
@@ -114,7 +123,8 @@ Subcommand render_subcommand() {
             "  parhelion render scene.xml -o preview.png --size 320x240 --spp 16 --exposure 1\n"
             "  parhelion render scene.xml -o layers.exr --aov albedo,normals,depth --stats "
             "stats.json\n"
-            "  parhelion render scene.xml -o tile.exr --crop 0,0,64,64 -D light=bright --seed 7",
+            "  parhelion render scene.xml -o tile.exr --crop 0,0,64,64 -D light=bright --seed 7\n"
+            "  parhelion render scene.xml --pixel 12,34 --sample 5 --trace",
         .options = render_options(*c),
         .run = [c] { return run_render(*c); },
     };

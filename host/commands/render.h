@@ -4,6 +4,7 @@
 #include "host/commands/command_line.h"
 #include "host/render/path_tracer.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,13 +13,16 @@ namespace parhelion {
 
 /// Everything the command line can say; what is absent is the scene's.
 struct RenderCommand {
-    std::string scene_file, output = "out.exr", stats_file, device;
+    std::string scene_file, output = "out.exr", stats_file, json_file, device;
     std::vector<std::string> definitions; ///< name=value
     std::vector<std::string> aovs;
-    std::optional<std::string> integrator, size, crop, sampler, filter_method;
+    std::optional<std::string> integrator, size, crop, sampler, filter_method, precision;
     std::optional<int> samples, max_depth, rr_depth;
     std::optional<std::uint32_t> seed;
     std::optional<double> exposure;
+    std::optional<std::string> pixel; ///< X,Y of the sample to trace
+    std::optional<int> sample;        ///< and its number
+    bool trace = false;
     int threads = 0; ///< 0: all
     bool next_event = true;
     bool force = false, quiet = false, allow_outside = false;
@@ -32,6 +36,17 @@ int run_render(const RenderCommand& command);
 /// Replaces what the scene file says by what the command line says. Throws InputError naming the
 /// option.
 void apply_overrides(const RenderCommand& command, Scene& scene);
+
+/// Whether double precision is asked for. Throws InputError for what is no precision, or a device
+/// that has none.
+bool in_double(const RenderCommand& command);
+
+/// X,Y of a pixel of the film. Throws InputError for one outside.
+std::array<int, 2> parse_pixel(const std::string& text, const Film& film);
+
+/// Tells one sample of the scene vertex by vertex, on standard output or into a JSON file; nothing
+/// is rendered. Throws InputError.
+int run_trace(const RenderCommand& command);
 
 Subcommand render_subcommand();
 

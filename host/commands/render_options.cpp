@@ -19,8 +19,26 @@ std::vector<Option> image_options(RenderCommand& c) {
         {"--exposure", &c.exposure, "Stops of exposure for .png"},
         {"--stats", &c.stats_file, "Write times, counts and memory as JSON"},
         {"--force", &c.force, "Overwrite the image if it exists"},
+        {"--precision", &c.precision,
+         "single, on the device (the default); double, the same kernels on the host: slow, to see "
+         "what rounding does"},
         {"--threads", &c.threads, "CPU threads, 0 for all"},
     };
+}
+
+std::vector<Option> trace_options(RenderCommand& c) {
+    std::vector<Option> options{
+        {"--trace",
+         &c.trace,
+         "Tell one sample vertex by vertex, and render nothing",
+         {.needs = {"--pixel", "--sample"}}},
+        {"--pixel", &c.pixel, "Its pixel, X,Y from the top left corner", {.needs = {"--trace"}}},
+        {"--sample", &c.sample, "Its number, from 0", {.needs = {"--trace"}}},
+        {"--json", &c.json_file, "Tell it as JSON, into this file", {.needs = {"--trace"}}},
+    };
+    for (Option& option : options)
+        option.rules.group = "One sample instead of an image";
+    return options;
 }
 
 std::vector<Option> of_split(std::vector<Option> options) {
@@ -95,15 +113,25 @@ void check_split(const RenderOptions& options) {
 
 std::vector<Option> render_options(RenderCommand& c) {
     std::vector<Option> options = image_options(c);
-    for (const std::vector<Option>& more : {kernel_options(c), pool_options(c)})
+    for (const std::vector<Option>& more : {trace_options(c), kernel_options(c), pool_options(c)})
         options.insert(options.end(), more.begin(), more.end());
     return options;
+}
+
+bool in_double(const RenderCommand& command) {
+    std::string precision = command.precision.value_or("single");
+    if (precision != "single" && precision != "double")
+        throw InputError(fmt::format("--precision '{}': there are single, double", precision));
+    if (precision == "double" && !command.device.empty())
+        throw InputError("--device: double precision runs on the host");
+    return precision == "double";
 }
 
 void check_command(const RenderCommand& command) {
     if (command.exposure && image_format(command.output) != ImageFormat::png)
         throw InputError("--exposure: is for .png previews; an .exr holds linear values");
     check_split(command.options);
+    in_double(command);
     if (command.threads < 0)
         throw InputError(fmt::format("--threads {}: must be 0 (all) or more", command.threads));
 }

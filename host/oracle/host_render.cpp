@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <utility>
+#include <vector>
 
 namespace parhelion {
 namespace {
@@ -49,40 +51,79 @@ void trace_wave(const HostLaunch<Real>& launch, int segments) {
 template<class Real>
 void trace_image(const HostLaunch<Real>& common, const WorkSizes& sizes, int samples,
                  Progress& progress) {
+    auto start = Clock::now();
     WaveSchedule schedule(static_cast<int>(sizes.window.tiles()), samples, sizes.blocks_per_wave,
                           sizes.samples_per_wave);
     while (auto wave = schedule.take()) {
         HostLaunch<Real> launch = common;
         launch.wave = *wave;
         trace_wave(launch, sizes.segments);
-        progress.update(schedule.finish(*wave), "");
+        double done = schedule.finish(*wave);
+        double paths = done * samples * static_cast<double>(sizes.window.tiles()) * BLOCK_PIXELS;
+        progress.update(done, fmt::format("{:.3f} Mpaths/s", paths / seconds_since(start) / 1e6));
     }
 }
 
-} // namespace
+/// As the accumulate kernel leaves it in single precision: sums and their rounding errors, which
+/// together have 48 bits.
+std::vector<float> film_floats(std::vector<float> film) { return film; }
+std::vector<float> film_floats(const std::vector<double>& film) {
+    std::vector<float> floats(film.size());
+    std::size_t half = film.size() / 2;
+    for (std::size_t i = 0; i < half; i++) {
+        double sum = film[i] + film[half + i];
+        floats[i] = static_cast<float>(sum);
+        floats[half + i] = static_cast<float>(sum - floats[i]);
+    }
+    return floats;
+}
 
-RenderResult render_on_host(const Scene& scene, const RenderOptions& options, Progress& progress) {
+template<class Real>
+std::array<std::uint64_t, statistic_count> sum_statistics(const WaveMemory<Real>& memory) {
+    std::array<std::uint64_t, statistic_count> sums{};
+    for (std::size_t i = 0; i < memory.statistics.size(); i++)
+        sums[i % statistic_count] += memory.statistics[i];
+    return sums;
+}
+
+template<class Real>
+void render_flat(const Scene& scene, const DeviceScene& flat, const RenderOptions& options,
+                 Progress& progress, RenderResult& result) {
     AovPlan aovs = plan_aovs(scene.integrator);
-    progress.start("building the BVH");
-    DeviceScene flat = make_device_scene(scene, options.light_choice);
-    progress.finish(fmt::format("{} primitives", flat.primitives.size()));
-
     int film_channels =
         result_field_count + aovs.channels + (scene.integrator.second_moment ? 3 : 0);
     WorkSplit split = options.split;
     split.streams = 1;
     WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, 1,
                                  film_channels, split);
-    WaveMemory<float> memory(sizes);
-    HostLaunch<float> launch{scene_arrays(flat), render_params(scene, flat, sizes, aovs),
-                             render_features(flat, options), WaveParams{}, memory};
-    RenderResult result;
-    progress.start("rendering on the host");
+    WaveMemory<Real> memory(sizes);
+    HostLaunch<Real> launch{scene_arrays(flat), render_params(scene, flat, sizes, aovs),
+                            render_features(flat, options), WaveParams{}, memory};
     auto start = Clock::now();
     trace_image(launch, sizes, scene.sampler.samples_per_pixel, progress);
     result.report.render_seconds = seconds_since(start);
-    progress.finish("");
-    result.image = film_image(memory.film, sizes, scene, aovs);
+    add_counts(sum_statistics(memory), result.report);
+    result.image = film_image(film_floats(std::move(memory.film)), sizes, scene, aovs);
+}
+
+} // namespace
+
+RenderResult render_on_host(const Scene& scene, const RenderOptions& options, Precision precision,
+                            Progress& progress) {
+    bool twice = precision == Precision::double_precision;
+    progress.start("building the BVH");
+    DeviceScene flat = make_device_scene(scene, options.light_choice);
+    progress.finish(fmt::format("{} primitives", flat.primitives.size()));
+    RenderResult result;
+    result.report = start_report(scene, flat);
+    result.report.device = twice ? "host, double precision" : "host, single precision";
+    progress.start(fmt::format("rendering on the {}: slow", result.report.device));
+    if (twice)
+        render_flat<double>(scene, flat, options, progress, result);
+    else
+        render_flat<float>(scene, flat, options, progress, result);
+    progress.finish(fmt::format("{:.3f} Mpaths/s", static_cast<double>(result.report.paths) /
+                                                       result.report.render_seconds / 1e6));
     return result;
 }
 

@@ -12,13 +12,11 @@ struct Kernels : WorkItem {
     static int asInt(float x) { return std::bit_cast<int>(x); }
 
 #define PARHELION_REAL float
-    // clang-format off: the order of the stages
 #include "kernels/accumulate.cl"
 #include "kernels/generate.cl"
 #include "kernels/intersect.cl"
 #include "kernels/shade.cl"
 #include "kernels/shadow.cl"
-    // clang-format on
 #undef PARHELION_REAL
 };
 

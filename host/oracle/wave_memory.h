@@ -46,5 +46,7 @@ struct HostLaunch {
 
 /// Runs one work-item of a stage.
 void run_work_item(Stage stage, const HostLaunch<float>& launch, int depth, int number);
+/// In double precision.
+void run_work_item(Stage stage, const HostLaunch<double>& launch, int depth, int number);
 
 } // namespace parhelion

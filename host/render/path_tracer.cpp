@@ -72,22 +72,16 @@ int stream_count(const WorkSplit& split, const Device& device) {
                                                                                              : 1;
 }
 
-void add_counts(const std::array<std::uint64_t, statistic_count>& statistics,
-                RenderReport& report) {
-    report.camera_rays = report.paths = statistics[statistic_camera_rays];
-    report.bounce_rays = statistics[statistic_bounce_rays];
-    report.shadow_rays = statistics[statistic_shadow_rays];
-    report.non_finite_samples = statistics[statistic_non_finite_samples];
+} // namespace
+
+std::uint64_t render_features(const DeviceScene& scene, const RenderOptions& options) {
+    return options.all_features ? scene.features | neutral_features() : scene.features;
 }
 
-RenderReport start_report(const Scene& scene, const Device& device, const DeviceScene& flat,
-                          int lanes) {
+RenderReport start_report(const Scene& scene, const DeviceScene& flat) {
     constexpr std::uint64_t every = (std::uint64_t{1} << feature_count) - 1;
     RenderReport report;
     report.scene_file = scene.file;
-    report.device = device.name;
-    report.driver = device.driver_version;
-    report.lanes = lanes;
     report.width = scene.film.crop_width, report.height = scene.film.crop_height;
     report.samples_per_pixel = scene.sampler.samples_per_pixel;
     report.seed = scene.sampler.seed;
@@ -100,10 +94,12 @@ RenderReport start_report(const Scene& scene, const Device& device, const Device
     return report;
 }
 
-} // namespace
-
-std::uint64_t render_features(const DeviceScene& scene, const RenderOptions& options) {
-    return options.all_features ? scene.features | neutral_features() : scene.features;
+void add_counts(const std::array<std::uint64_t, statistic_count>& statistics,
+                RenderReport& report) {
+    report.camera_rays = report.paths = statistics[statistic_camera_rays];
+    report.bounce_rays = statistics[statistic_bounce_rays];
+    report.shadow_rays = statistics[statistic_shadow_rays];
+    report.non_finite_samples = statistics[statistic_non_finite_samples];
 }
 
 RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
@@ -115,7 +111,10 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     auto start = Clock::now();
     DeviceScene flat = make_device_scene(scene, options.light_choice);
     RenderResult result;
-    result.report = start_report(scene, device.device, flat, lanes);
+    result.report = start_report(scene, flat);
+    result.report.device = device.device.name;
+    result.report.driver = device.device.driver_version;
+    result.report.lanes = lanes;
     result.report.bvh_seconds = seconds_since(start);
     progress.finish(fmt::format("{} primitives", flat.primitives.size()));
 

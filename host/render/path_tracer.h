@@ -32,4 +32,9 @@ struct RenderResult {
 RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
                     Progress& progress);
 
+/// What is known of a render before it starts, but for the device.
+RenderReport start_report(const Scene& scene, const DeviceScene& flat);
+
+void add_counts(const std::array<std::uint64_t, statistic_count>& statistics, RenderReport& report);
+
 } // namespace parhelion

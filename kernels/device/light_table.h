@@ -1,4 +1,6 @@
 // Picking a row of the light table, for the point that it is to light: walking down the light tree.
+#ifndef PARHELION_LIGHT_TABLE_H
+#define PARHELION_LIGHT_TABLE_H
 
 typedef struct {
     Int row;
@@ -87,3 +89,5 @@ FN Real light_pmf(global const LightNodeRecord* nodes, global const int* leaves,
     }
     return pmf;
 }
+
+#endif

@@ -3,7 +3,7 @@
 //
 // OpenCL C: LANES is 16, 8 or 1; Real, Int, Uint and Mask are vectors of that many values (or
 // scalars). C++: one lane; PARHELION_REAL is float or double, and the file that includes this
-// supplies <cmath> and <cstdint>.
+// supplies <cmath>, <cstdint> and <limits>.
 //
 // Scalar is one value of a Real.
 //
@@ -166,6 +166,7 @@ FN Real copysignR(Real a, Real b) {
 FN Mask signsDiffer(Real a, Real b) { return (asInt(a) ^ asInt(b)) < 0; }
 /// The largest power of two that is not above x; 0 where that is denormal; x >= 0 and finite.
 FN Real powerOfTwoBelow(Real x) { return asReal(asUint(x) & 0x7f800000u); }
+#define HALF_ULP 5.9604644775390625e-8f // of 1
 #define LANE_NAN NAN
 #define LANE_INFINITY INFINITY
 #define finiteR(x) ((asUint(x) & 0x7f800000u) != 0x7f800000u)
@@ -206,6 +207,7 @@ FN Mask signsDiffer(Real a, Real b) { return std::signbit(a) != std::signbit(b);
 FN Real powerOfTwoBelow(Real x) {
     return std::isnormal(x) ? std::ldexp(Real(1), std::ilogb(x)) : Real(0);
 }
+#define HALF_ULP (std::numeric_limits<Real>::epsilon() / 2) // of 1
 #define LANE_NAN ((Real)NAN)
 #define LANE_INFINITY ((Real)INFINITY)
 #endif

@@ -1,7 +1,6 @@
 // Leaving a surface without hitting it again, at any scale of the scene.
 
 /// gamma(n) of Higham 2002: n half-ulps, compounded. Bounds the relative error of n roundings.
-#define HALF_ULP 5.9604644775390625e-8f
 #define GAMMA(n) ((Real)((n)*HALF_ULP / (1.f - (n)*HALF_ULP)))
 
 /// How far a ray must stand off a surface of the normal n for the rounding error of its origin

@@ -15,7 +15,7 @@ namespace {
 
 Image host_image(const Scene& scene, const RenderOptions& options = {}) {
     Progress quiet(Progress::Mode::quiet);
-    return render_on_host(scene, options, quiet).image;
+    return render_on_host(scene, options, Precision::single_precision, quiet).image;
 }
 
 /// Values whose bits differ, over all channels.

@@ -1,0 +1,150 @@
+// What `parhelion render --trace` prints.
+#include "host/commands/trace_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace parhelion {
+namespace {
+
+using nlohmann::json;
+
+#define KIND_NAME_MATERIAL(name, sides) #name,
+constexpr std::array material_names{MATERIALS(KIND_NAME_MATERIAL)};
+#define KIND_NAME(name) #name,
+constexpr std::array emitter_names{EMITTERS(KIND_NAME)};
+
+/// JSON has no infinities.
+json number(float v) {
+    if (std::isfinite(v)) return v;
+    return std::isnan(v) ? "nan" : v > 0 ? "inf" : "-inf";
+}
+json triple(const Triple& v) { return {number(v[0]), number(v[1]), number(v[2])}; }
+
+json shape_json(const Scene& scene, int index, int primitive) {
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(index)];
+    return {{"index", index}, {"id", shape.id}, {"plugin", shape.plugin}, {"primitive", primitive}};
+}
+
+json material_json(const Scene& scene, const DeviceScene& flat, int row) {
+    if (row < 0) return nullptr;
+    auto i = static_cast<std::size_t>(row);
+    return {{"index", row},
+            {"id", scene.materials[i].id},
+            {"kind", material_names[static_cast<std::size_t>(flat.materials[i].kind)]}};
+}
+
+/// The shape that shines as a row of the light table; none: an emitter without a surface.
+json light_shape(const Scene& scene, const DeviceScene& flat, int row) {
+    auto shines = [row](const PrimitiveRecord& p) { return p.light == row; };
+    auto p = std::find_if(flat.primitives.begin(), flat.primitives.end(), shines);
+    if (p == flat.primitives.end()) return nullptr;
+    return shape_json(scene, p->shape, p->index_in_shape);
+}
+
+json light_json(const Scene& scene, const DeviceScene& flat, const TraceVertex& v) {
+    const ShadeNotes& n = v.notes;
+    if (!n.pick || !n.light || !n.towards_light) return nullptr;
+    auto row = static_cast<std::size_t>(n.pick->row);
+    bool delta = n.light->inverse_pdf == 0.f;
+    return {{"row", n.pick->row},
+            {"kind", emitter_names[static_cast<std::size_t>(flat.lights[row].kind)]},
+            {"shape", light_shape(scene, flat, n.pick->row)},
+            {"pmf", number(n.pick->pmf)},
+            {"direction", triple(n.light->wi)},
+            {"target", n.light->distant ? json(nullptr) : triple(n.light->target)},
+            {"pdf", number(delta ? 0.f : 1.f / n.light->inverse_pdf)},
+            {"radiance_over_pdf", triple(n.light->weight)},
+            {"bsdf", triple(n.towards_light->f)},
+            {"bsdf_pdf", number(n.towards_light->pdf)},
+            {"mis_weight", number(n.light_weight.value_or(1.f))},
+            {"contribution", triple(v.light)},
+            {"shadow_ray", v.shadow_ray},
+            {"blocked", v.blocked}};
+}
+
+json scattering_json(const TraceVertex& v) {
+    if (!v.notes.scattered) return nullptr;
+    const ShadeNotes::Scattered& bsdf = *v.notes.scattered;
+    return {{"wi", triple(bsdf.wi)},
+            {"pdf", number(bsdf.pdf)},
+            {"weight", triple(bsdf.weight)},
+            {"eta", number(bsdf.eta)}};
+}
+
+json roulette_json(const TraceVertex& v) {
+    if (!v.notes.roulette) return nullptr;
+    const ShadeNotes::Survival& r = *v.notes.roulette;
+    return {{"survives", r.alive}, {"throughput_scale", number(r.scale)}};
+}
+
+json emission_json(const TraceVertex& v) {
+    if (!v.notes.emission) return nullptr;
+    return {{"radiance", triple(v.notes.emission->radiance)},
+            {"mis_weight", number(v.notes.emission_weight.value_or(1.f))},
+            {"light_pdf", number(v.notes.emission->pdf)},
+            {"contribution", triple(v.emission)}};
+}
+
+json draws_json(const TraceVertex& v) {
+    json draws = json::array();
+    for (const ShadeNotes::Draw& draw : v.notes.draws)
+        draws.push_back({{"dimension", draw.dimension}, {"numbers", draw.numbers}});
+    return draws;
+}
+
+void add_surface(const Scene& scene, const DeviceScene& flat, const TraceVertex& v, json& out) {
+    const ShadeNotes::Surface& surface = *v.notes.surface;
+    out["t"] = number(v.t);
+    out["shape"] = shape_json(scene, v.shape, v.primitive);
+    out["position"] = triple(surface.position);
+    out["ng"] = triple(surface.ng);
+    out["ns"] = triple(surface.ns);
+    out["wo"] = triple(v.wo);
+    out["material"] = material_json(scene, flat, v.material);
+    if (v.material < 0) return;
+    out["next_event"] = light_json(scene, flat, v);
+    out["scattering"] = scattering_json(v);
+    out["roulette"] = roulette_json(v);
+    out["random"] = draws_json(v);
+    out["goes_on"] = v.goes_on;
+    if (v.goes_on) out["throughput_after"] = triple(v.throughput_after);
+}
+
+json vertex_json(const Scene& scene, const DeviceScene& flat, const TraceVertex& v) {
+    json out{{"bounce", v.bounce},
+             {"origin", triple(v.origin)},
+             {"direction", triple(v.direction)},
+             {"direction_pdf", number(v.pdf)},
+             {"throughput", triple(v.throughput)},
+             {"hit", v.hit},
+             {"emission", emission_json(v)},
+             {"not_finite", v.not_finite}};
+    if (v.hit) add_surface(scene, flat, v, out);
+    return out;
+}
+
+} // namespace
+
+json trace_json(const Scene& scene, const DeviceScene& flat, const SampleTrace& trace) {
+    json vertices = json::array();
+    for (const TraceVertex& v : trace.vertices)
+        vertices.push_back(vertex_json(scene, flat, v));
+    return {{"scene", scene.file},
+            {"pixel", {trace.x, trace.y}},
+            {"sample", trace.sample},
+            {"seed", scene.sampler.seed},
+            {"sampler", sample_pattern_names[static_cast<std::size_t>(scene.sampler.pattern)]},
+            {"on_film", trace.on_film},
+            {"vertices", vertices},
+            {"radiance", triple(trace.radiance)},
+            {"alpha", number(trace.alpha)},
+            {"weight", number(trace.weight)},
+            {"first_not_finite_vertex",
+             trace.first_not_finite < 0 ? json(nullptr) : json(trace.first_not_finite)}};
+}
+
+} // namespace parhelion

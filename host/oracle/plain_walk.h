@@ -1,0 +1,87 @@
+// A ray's walk through the wide BVH, one box and one primitive at a time, for the double-precision
+// kernels; text for the struct of kernels_double.cpp.
+//
+// It reads corners from the primitives' records and takes from the tree only its boxes, which bound
+// them in any precision; its answer is that of all primitives tested one after the other.
+
+struct PlainHit {
+    Real t, b1, b2;
+    int primitive; // -1: nothing
+};
+
+/// The number of each primitive of a leaf.
+template<class Visit>
+void plain_leaf(const BvhLine* leaf, int form, Visit visit) {
+    if (form == BVH_PATCH) {
+        const auto* patch = reinterpret_cast<const BvhPatch*>(leaf);
+        uint base = 0;
+        for (int k = 0; k < BVH_WIDTH; k++)
+            base |= static_cast<uint>(patch->triangle[k] < 0) << k;
+        for (int word : patch->triangle)
+            if ((word & ((1 << BVH_PATCH_CORNERS) - 1)) != 0)
+                visit(static_cast<int>(base << BVH_PATCH_BASE) +
+                      ((word >> BVH_PATCH_CORNERS) & ((1 << BVH_PATCH_NUMBERS) - 1)));
+    } else {
+        for (int number : reinterpret_cast<const BvhLeaf*>(leaf)->primitive)
+            if (number >= 0) visit(number);
+    }
+}
+
+Intersection plain_primitive(const PacketRay& r, const Primitive& p, Real t_max) {
+    if (primitive_kind(p) == geometry_sphere)
+        return intersect_sphere(sub3(r.origin, primitive_a(p)), r.direction, p.extra, t_max);
+    if (primitive_kind(p) == geometry_disk)
+        return intersect_disk(sub3(primitive_a(p), r.origin), r.direction, primitive_b(p),
+                              primitive_c(p), t_max);
+    Corners v = {rename_axes(r, primitive_a(p)), rename_axes(r, primitive_b(p)),
+                 rename_axes(r, primitive_c(p))};
+    return intersect_triangle(v, r.shear, t_max);
+}
+
+BoxOverlap plain_box(const BvhNode& node, int k, const PacketRay& r, Real t_max) {
+    auto plane = [&](int axis, const RaySlab& s, bool far) {
+        int row = 2 * axis + (far != (s.inverse < 0));
+        return fmaR(node.bounds[row][k], s.inverse, far ? s.far_offset : s.near_offset);
+    };
+    return box_overlap(plane(0, r.x, false), plane(1, r.y, false), plane(2, r.z, false),
+                       plane(0, r.x, true), plane(1, r.y, true), plane(2, r.z, true),
+                       t_max * R(HIT_WIDENING));
+}
+
+/// The children that a ray meets wait; the one that it enters first comes last.
+int plain_children(const BvhNode& node, const PacketRay& r, Real t_max, int* stack, int top) {
+    std::array<std::pair<Real, int>, BVH_WIDTH> met;
+    int count = 0;
+    for (int k = 0; k < BVH_WIDTH; k++) {
+        if (!(node.bounds[0][k] <= node.bounds[1][k])) continue; // no child
+        BoxOverlap box = plain_box(node, k, r, t_max);
+        if (box.meets) met[count++] = {box.entry, node.child[k]};
+    }
+    std::sort(met.begin(), met.begin() + count, std::greater<>());
+    for (int i = 0; i < count; i++)
+        stack[top++] = met[i].second;
+    return top;
+}
+
+/// The closest hit in ]0, t_max], or with any_hit some hit; of two at one distance the lower
+/// number.
+PlainHit plain_walk(const BvhNode* nodes, const BvhLine* leaves, const PrimitiveRecord* primitives,
+                    int root, const PacketRay& r, Real t_max, int excluded, bool any_hit) {
+    PlainHit hit = {t_max, 0, 0, -1};
+    int stack[BVH_STACK];
+    stack[0] = root;
+    for (int top = 1; top > 0 && !(any_hit && hit.primitive >= 0);) {
+        int code = stack[--top];
+        if (code >= 0) {
+            top = plain_children(nodes[code], r, hit.t, stack, top);
+            continue;
+        }
+        plain_leaf(leaves + (~code >> 2), ~code & 3, [&](int number) {
+            if (number == excluded) return;
+            Intersection i = plain_primitive(r, load_Primitive(primitives, number), hit.t);
+            bool closer = i.hit && (i.t < hit.t || hit.primitive < 0 || number < hit.primitive);
+            if (closer) hit = {i.t, i.b1, i.b2, number};
+        });
+    }
+    return hit;
+}
