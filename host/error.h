@@ -16,11 +16,21 @@ enum class ExitCode {
     internal_failure = 4
 };
 
+/// `text` with its control characters replaced: names and values that a message repeats can neither
+/// break its line nor tell the terminal what to do.
+inline std::string as_one_line(std::string text) {
+    for (char& c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20 || byte == 0x7f) c = '?';
+    }
+    return text;
+}
+
 /// A scene, file, or command line that cannot be used. `what()` is one line, without a trailing
 /// newline.
 class InputError : public std::runtime_error {
 public:
-    using std::runtime_error::runtime_error;
+    explicit InputError(const std::string& message) : std::runtime_error(as_one_line(message)) {}
 };
 
 /// An OpenCL platform, device, compiler or launch that failed. `what()` is one line (a build log

@@ -51,7 +51,8 @@ T read_number(Imf::IStream& stream) {
 
 Name read_name(Imf::IStream& stream) {
     Name name{};
-    Imf::Xdr::read<Imf::StreamIO>(stream, static_cast<int>(name.size()), name.data());
+    // It stores one character more than it is told, the end of the name or not.
+    Imf::Xdr::read<Imf::StreamIO>(stream, static_cast<int>(name.size()) - 1, name.data());
     return name;
 }
 

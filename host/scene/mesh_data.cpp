@@ -15,21 +15,33 @@ namespace parhelion {
 
 namespace {
 
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+double largest_component(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// Finite, and so is its difference to any other such vector.
+bool is_in_range(const glm::dvec3& v) {
+    constexpr double largest = std::numeric_limits<double>::max() / 2.0;
+    return std::abs(v.x) <= largest && std::abs(v.y) <= largest && std::abs(v.z) <= largest;
 }
 
 bool is_zero(const glm::dvec3& v) { return v == glm::dvec3(0.0); }
 
 /// Unit vector, safe for lengths whose square leaves the range of double.
 glm::dvec3 direction_of(const glm::dvec3& v) {
-    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const double largest = largest_component(v);
     return largest > 0.0 ? glm::normalize(v / largest) : glm::dvec3(0.0);
 }
 
 glm::dvec3 geometric_normal(const Mesh& mesh, const glm::uvec3& t) {
     const glm::dvec3 a = mesh.positions[t[0]];
-    return direction_of(glm::cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a));
+    const glm::dvec3 b = mesh.positions[t[1]] - a, c = mesh.positions[t[2]] - a;
+    const glm::dvec3 normal = glm::cross(b, c);
+    // Products of huge edges overflow, those of tiny ones lose digits.
+    const double largest = largest_component(normal);
+    if (largest > 0x1p-900 && std::isfinite(glm::dot(normal, glm::dvec3(1.0))))
+        return direction_of(normal);
+    return direction_of(glm::cross(direction_of(b), direction_of(c)));
 }
 
 /// Angle between unit vectors, accurate when they are nearly parallel (Kahan).
@@ -110,7 +122,12 @@ void flip(Mesh& mesh) {
 } // namespace
 
 glm::dmat3 normal_matrix(const glm::dmat4& to_world) {
-    const glm::dmat3 m(to_world);
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column)
+        largest = std::max(largest, largest_component(glm::dvec3(to_world[column])));
+    // A power of two, which rounds nothing, keeps products of huge and of tiny columns in range.
+    const double scale = largest > 0.0 ? std::exp2(-std::logb(largest)) : 1.0;
+    const glm::dmat3 m = glm::dmat3(to_world) * scale;
     const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
                                glm::cross(m[0], m[1]));
     return glm::dot(m[0], cofactors[0]) < 0.0 ? -cofactors : cofactors;
@@ -124,7 +141,7 @@ Mesh make_mesh(MeshData data, const MeshOptions& options, const SourceLocation& 
     Mesh mesh{std::move(data.positions), {}, std::move(data.uvs), std::move(data.triangles)};
     for (glm::dvec3& p : mesh.positions) {
         p = glm::dvec3(options.to_world * glm::dvec4(p, 1.0));
-        if (!is_finite(p)) refuse(place, "a vertex leaves the range of numbers under to_world");
+        if (!is_in_range(p)) refuse(place, "a vertex leaves the range of numbers under to_world");
     }
     if (!options.face_normals) {
         const glm::dmat3 to_world = normal_matrix(options.to_world);

@@ -58,12 +58,8 @@ std::vector<std::string_view> split(std::string_view text, std::string_view sepa
 }
 
 std::string in_quotes(std::string_view text) {
-    std::string result = "\"";
-    for (const char c : text.substr(0, longest_quote)) {
-        const auto byte = static_cast<unsigned char>(c);
-        result += byte < 0x20 || byte == 0x7f ? '?' : c;
-    }
-    return result + (text.size() > longest_quote ? "...\"" : "\"");
+    return "\"" + as_one_line(std::string(text.substr(0, longest_quote))) +
+           (text.size() > longest_quote ? "...\"" : "\"");
 }
 
 std::string lower_case(std::string_view text) {

@@ -1,0 +1,81 @@
+// Command lines of `render` and `compare`, one argument a line, up to where files or a device would
+// be opened.
+#include "host/commands/command_line.h"
+#include "host/commands/compare.h"
+#include "host/commands/render.h"
+#include "property.h"
+#include "targets.h"
+
+#include <iostream>
+
+namespace parhelion::fuzz {
+
+namespace {
+
+/// Help and versions are printed; nobody reads them here.
+class QuietOutput {
+public:
+    QuietOutput() : buffer_(std::cout.rdbuf(nullptr)) {}
+    ~QuietOutput() { std::cout.rdbuf(buffer_); }
+    QuietOutput(const QuietOutput&) = delete;
+    QuietOutput& operator=(const QuietOutput&) = delete;
+
+private:
+    std::streambuf* buffer_;
+};
+
+std::vector<std::string> lines_of(std::string_view text) {
+    std::vector<std::string> lines;
+    for (std::size_t start = 0; start < text.size();) {
+        const std::size_t end = std::min(text.find('\n', start), text.size());
+        lines.emplace_back(text.substr(start, end - start));
+        start = end + 1;
+    }
+    return lines;
+}
+
+void check_film(const Film& film) {
+    promise(film.width > 0 && film.height > 0, "the film has pixels");
+    promise(film.crop_x >= 0 && film.crop_width > 0 && film.crop_width <= film.width - film.crop_x,
+            "the crop lies inside the film's width");
+    promise(film.crop_y >= 0 && film.crop_height > 0 &&
+                film.crop_height <= film.height - film.crop_y,
+            "the crop lies inside the film's height");
+}
+
+int use_render(const RenderCommand& command) {
+    check_command(command);
+    static_cast<void>(parse_definitions(command.definitions));
+    Scene scene;
+    apply_overrides(command, scene);
+    check_film(scene.film);
+    promise(scene.sampler.samples_per_pixel > 0, "there are samples");
+    return 0;
+}
+
+int use_compare(const CompareOptions& options) {
+    check_options(options);
+    return 0;
+}
+
+} // namespace
+
+int fuzz_options(const std::uint8_t* data, std::size_t size) {
+    RenderCommand render;
+    CompareOptions compare;
+    const CommandLine line{
+        .summary = "summary",
+        .footer = "footer",
+        .version = [] { return std::string("version"); },
+        .subcommands = {{.name = "render",
+                         .options = render_options(render),
+                         .run = [&] { return use_render(render); }},
+                        {.name = "compare",
+                         .options = compare_options(compare),
+                         .run = [&] { return use_compare(compare); }}},
+    };
+    const QuietOutput quiet;
+    return answer_or_refusal([&] { run_command_line(line, lines_of(as_text(data, size))); });
+}
+
+} // namespace parhelion::fuzz
