@@ -2,6 +2,7 @@
 #include "host/render/film_image.h"
 
 #include "host/error.h"
+#include "host/render/film_reader.h"
 
 #include <fmt/format.h>
 
@@ -20,74 +21,31 @@ struct AovKindInfo {
 #define AOV_INFO(name, channels, suffixes) AovKindInfo{#name, channels, suffixes},
 constexpr std::array aov_kinds{AOVS(AOV_INFO)};
 static_assert(aov_kinds.size() <= AOV_LIMIT);
+constexpr std::array film_aov_kinds{FILM_AOVS(AOV_INFO)};
+
+/// Place of a kind in its list; the length of the list: there is no such kind.
+template<std::size_t N>
+int kind_of(const std::array<AovKindInfo, N>& kinds, const std::string& name) {
+    auto found = std::find_if(kinds.begin(), kinds.end(),
+                              [&](const AovKindInfo& kind) { return kind.name == name; });
+    return static_cast<int>(found - kinds.begin());
+}
 
 std::string aov_kind_names() {
     std::string text;
     for (const AovKindInfo& kind : aov_kinds)
-        text += fmt::format("{}{}", text.empty() ? "" : ", ", kind.name);
+        text += fmt::format("{}, ", kind.name);
+    for (const AovKindInfo& kind : film_aov_kinds)
+        text += fmt::format("{}{}", kind.name, kind.name == film_aov_kinds.back().name ? "" : ", ");
     return text;
 }
 
-/// The range of tiles along one axis that hold a pixel, counted from the first block's corner.
-struct TileRange {
-    int first, last;
-
-    TileRange(int pixel, int reach, int blocks)
-        : first(std::max(0, (pixel - reach) / 4)), last(std::min(blocks - 1, (pixel + reach) / 4)) {
-    }
-};
-
-/// Reads the film's channels as means: sum / weight, each over all tiles that hold the pixel.
-class FilmReader {
-public:
-    FilmReader(const std::vector<float>& film, const WorkSizes& sizes, const Film& crop)
-        : film_(film), sizes_(sizes), crop_(crop), weights_(sums(result_weight)) {}
-
-    std::vector<float> means(int channel) const {
-        std::vector<double> values = sums(channel);
-        std::vector<float> out(values.size());
-        // No sample, or filter weights that cancel exactly: there is no mean, and black would be a
-        // lie only there.
-        for (std::size_t i = 0; i < out.size(); i++)
-            if (weights_[i] != 0.0) out[i] = static_cast<float>(values[i] / weights_[i]);
-        return out;
-    }
-
-private:
-    std::vector<double> sums(int channel) const {
-        std::vector<double> out;
-        out.reserve(static_cast<std::size_t>(crop_.crop_width) * crop_.crop_height);
-        for (int y = 0; y < crop_.crop_height; y++)
-            for (int x = 0; x < crop_.crop_width; x++)
-                out.push_back(sum(channel, x + crop_.crop_x, y + crop_.crop_y));
-        return out;
-    }
-
-    /// In the order of the tiles, with the rounding errors of the device's sums.
-    double sum(int channel, int x, int y) const {
-        const SampleWindow& window = sizes_.window;
-        int from_x = x - window.block_x, from_y = y - window.block_y,
-            side = TILE_SIDE(window.reach);
-        TileRange columns(from_x, window.reach, window.blocks_x);
-        TileRange rows(from_y, window.reach, window.blocks_y);
-        std::size_t errors = sizes_.film_channels * sizes_.film_stride();
-        double total = 0.0;
-        for (int row = rows.first; row <= rows.last; row++)
-            for (int column = columns.first; column <= columns.last; column++) {
-                std::size_t tile = static_cast<std::size_t>(row) * window.blocks_x + column;
-                int cell =
-                    (from_y - 4 * row + window.reach) * side + from_x - 4 * column + window.reach;
-                std::size_t at = channel * sizes_.film_stride() + tile * window.tile_cells() + cell;
-                total += double{film_[at]} + film_[at + errors];
-            }
-        return total;
-    }
-
-    const std::vector<float>& film_;
-    const WorkSizes& sizes_;
-    const Film& crop_;
-    std::vector<double> weights_;
-};
+void check_twice(const std::vector<AovLayer>& layers, const AovRequest& request, int kind) {
+    for (const AovLayer& layer : layers)
+        if (layer.kind == kind || layer.name == request.name)
+            throw InputError(fmt::format("{}: AOV '{}' ({}) is asked for twice",
+                                         request.location.to_string(), request.name, request.kind));
+}
 
 /// Linear Rec. 709 to CIE XYZ (ITU-R BT.709 primaries, D65), rows X, Y, Z: the figures Mitsuba 3
 /// uses.
@@ -128,21 +86,29 @@ void add_main_layer(const FilmReader& film, PixelFormat format, Image& image) {
 
 } // namespace
 
-AovPlan plan_aovs(const Integrator& integrator) {
+bool is_film_aov(const AovRequest& request) {
+    return kind_of(film_aov_kinds, request.kind) < film_aov_kind_count;
+}
+
+AovPlan plan_aovs(const Scene& scene) {
     AovPlan plan;
-    for (const AovRequest& request : integrator.aovs) {
-        int kind = 0;
-        while (kind < static_cast<int>(aov_kinds.size()) && aov_kinds[kind].name != request.kind)
-            kind++;
-        if (kind == static_cast<int>(aov_kinds.size()))
+    for (const AovRequest& request : scene.integrator.aovs) {
+        bool of_film = is_film_aov(request);
+        int kind =
+            of_film ? kind_of(film_aov_kinds, request.kind) : kind_of(aov_kinds, request.kind);
+        if (!of_film && kind == aov_kind_count)
             throw InputError(fmt::format("{}: there is no AOV '{}'; there are {}",
                                          request.location.to_string(), request.kind,
                                          aov_kind_names()));
-        for (const AovLayer& layer : plan.layers)
-            if (layer.kind == kind || layer.name == request.name)
-                throw InputError(fmt::format("{}: AOV '{}' ({}) is asked for twice",
-                                             request.location.to_string(), request.name,
-                                             request.kind));
+        check_twice(plan.layers, request, of_film ? -1 : kind);
+        check_twice(plan.film_layers, request, of_film ? kind : -1);
+        if (of_film && kind == film_aov_variance && scene.sampler.samples_per_pixel < 2)
+            throw InputError(fmt::format("{}: AOV '{}' needs at least 2 samples per pixel",
+                                         request.location.to_string(), request.kind));
+        if (of_film) {
+            plan.film_layers.push_back({request.name, kind, 0});
+            continue;
+        }
         plan.layers.push_back({request.name, kind, plan.channels});
         plan.channels += aov_kinds[kind].channels;
     }
@@ -163,6 +129,13 @@ Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const S
         for (int c = 0; c < kind.channels; c++)
             add_channel(image, fmt::format("{}.{}", layer.name, kind.suffixes[c]),
                         reader.means(result_field_count + layer.channel + c));
+    }
+    for (const AovLayer& layer : aovs.film_layers) {
+        const AovKindInfo& kind = film_aov_kinds[layer.kind];
+        for (int c = 0; c < kind.channels; c++)
+            add_channel(image, fmt::format("{}.{}", layer.name, kind.suffixes[c]),
+                        layer.kind == film_aov_variance ? reader.variances(c)
+                                                        : reader.sample_counts());
     }
     if (scene.integrator.second_moment) {
         constexpr std::string_view suffixes = "RGB";

@@ -20,11 +20,15 @@ struct AovLayer {
 struct AovPlan {
     std::vector<AovLayer> layers;
     int channels = 0;
+    std::vector<AovLayer> film_layers; ///< enum FilmAovKind; they have no channel of their own
 };
 
-/// Lays out the AOVs of an integrator. Throws InputError for a kind that there is not, naming those
-/// there are.
-AovPlan plan_aovs(const Integrator& integrator);
+/// Whether an AOV is what the film itself tells of a pixel's samples (FILM_AOVS).
+bool is_film_aov(const AovRequest& request);
+
+/// Lays out the AOVs of a scene's integrator. Throws InputError for a kind that there is not, naming
+/// those there are, and for a variance of one sample.
+AovPlan plan_aovs(const Scene& scene);
 
 /// Divides the film's sums by the filter weights and names the channels. `film` as the accumulate
 /// kernel leaves it.

@@ -104,7 +104,7 @@ void add_counts(const std::array<std::uint64_t, statistic_count>& statistics,
 
 RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
                     Progress& progress) {
-    AovPlan aovs = plan_aovs(scene.integrator);
+    AovPlan aovs = plan_aovs(scene);
     int lanes = options.lanes > 0 ? options.lanes : device.device.lanes();
 
     progress.start("building the BVH");
@@ -128,8 +128,9 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     progress.finish(result.report.all_cached() ? "cached" : "compiled");
 
     start = Clock::now();
-    int film_channels =
-        result_field_count + aovs.channels + (scene.integrator.second_moment ? 3 : 0);
+    int film_channels = result_field_count + aovs.channels +
+                        (scene.integrator.second_moment ? 3 : 0) +
+                        (aovs.film_layers.empty() ? 0 : static_cast<int>(spread_channel_count));
     WorkSplit split = options.split;
     split.streams = stream_count(split, device.device);
     WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, lanes,

@@ -3,6 +3,7 @@
 
 #include "host/error.h"
 #include "host/render/device_scene.h"
+#include "host/render/film_image.h"
 #include "host/render/filter_table.h"
 #include "host/render/material_records.h"
 #include "host/render/parallelograms.h"
@@ -165,7 +166,8 @@ std::uint64_t scene_features(const Scene& scene) {
     set.add_if(integrator.kind == IntegratorKind::normals, feature_view_normals);
     set.add_if(integrator.kind == IntegratorKind::depth, feature_view_depth);
     set.add_if(integrator.second_moment, feature_moments);
-    set.add_if(!integrator.aovs.empty(), feature_aovs);
+    for (const AovRequest& aov : integrator.aovs)
+        set.add(is_film_aov(aov) ? feature_variance : feature_aovs);
     if (integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct)
         add_transport(integrator, set);
     return set.mask;

@@ -49,6 +49,8 @@ constexpr std::uint64_t stage_features(Stage stage) {
     constexpr std::uint64_t shapes = 0 GEOMETRIES(SHAPE_BIT);
     constexpr std::uint64_t splatting = feature_bit(feature_filter_splatting);
     constexpr std::uint64_t film = splatting | feature_bit(feature_filter_sampling);
+    constexpr std::uint64_t film_only =
+        feature_bit(feature_moments) | feature_bit(feature_variance);
     constexpr std::uint64_t streams = feature_bit(feature_ray_streams);
     switch (stage) {
     case Stage::generate:
@@ -57,9 +59,9 @@ constexpr std::uint64_t stage_features(Stage stage) {
     case Stage::shadow:
         return shapes | streams;
     case Stage::accumulate:
-        return splatting | feature_bit(feature_moments);
+        return splatting | film_only;
     case Stage::shade:
-        return ~(film | streams | feature_bit(feature_thin_lens) | feature_bit(feature_moments));
+        return ~(film | streams | feature_bit(feature_thin_lens) | film_only);
     }
     return 0;
 }

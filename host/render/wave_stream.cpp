@@ -23,8 +23,8 @@ WorkSizes work_sizes(const SampleWindow& window, int samples, int lanes, int fil
     s.window = window;
     s.streams = split.streams;
     s.work_group_size = split.work_group_size;
-    // What is splatted together must be in one wave.
-    int together = window.reach > 0 ? SPLAT_SAMPLES : 1;
+    // What is added up together must be in one wave.
+    constexpr int together = FILM_SAMPLES;
     int groups = std::max(together, split.pool_paths / split.streams / BLOCK_PIXELS);
     // Few samples of many blocks, so that neighbouring pixels share a segment; more where the film
     // is too small to fill the pool.

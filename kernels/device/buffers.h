@@ -24,7 +24,7 @@
 //                 if HAS(filter_splatting), two more: its offset from the centre of its pixel
 //   counts        2 a segment: live paths, shadow rays
 //   statistics    STATISTICS a segment
-//   film          2 floats (sum, rounding error of the sum) x channels x film_stride; a channel holds
+//   film          2 floats (high and low part of a sum) x channels x film_stride; a channel holds
 //                 a tile a block
 #define WAVE_BUFFERS(X)                                                                            \
     X(float, path_state) X(float, shadow_state) X(float, results)                                  \
@@ -48,7 +48,11 @@
 // What a path slot gathers; the AOV channels follow.
 #define RESULT_FIELDS(X) X(float, r) X(float, g) X(float, b) X(float, alpha) X(float, weight)
 
-// Film channels before the AOVs: the results in the same order, then the squares of r, g, b if HAS(moments).
+// Film channels before the AOVs: the results in the same order, then the squares of r, g, b if HAS(moments). Last, if
+// HAS(variance), with g the square of a sample's weight: sum of g; and of r, g, b each mean (sum of g x / sum of g) and spread (sum
+// of g (x - mean)^2).
+#define SPREAD_CHANNELS(X) X(weight) X(mean_r) X(mean_g) X(mean_b) X(spread_r) X(spread_g) X(spread_b)
+
 #define STATISTICS(X) X(camera_rays) X(bounce_rays) X(shadow_rays) X(non_finite_samples)
 
 #define PATH_ENUM(type, name) path_##name,
@@ -57,6 +61,8 @@ enum PathField { PATH_FIELDS(PATH_ENUM) path_field_count };
 enum ShadowField { SHADOW_FIELDS(SHADOW_ENUM) shadow_field_count };
 #define RESULT_ENUM(type, name) result_##name,
 enum ResultField { RESULT_FIELDS(RESULT_ENUM) result_field_count };
+#define SPREAD_ENUM(name) spread_##name,
+enum SpreadChannel { SPREAD_CHANNELS(SPREAD_ENUM) spread_channel_count };
 #define STATISTIC_ENUM(name) statistic_##name,
 enum Statistic { STATISTICS(STATISTIC_ENUM) statistic_count };
 

@@ -1,14 +1,23 @@
-// The film: sums that do not drift, and what a finished sample adds to them.
+// The film: what a group of finished samples adds to it, and which samples are left out.
 
-/// Adds v to a sum kept as two floats (TwoSum, Knuth): the error of each addition is carried, so
-/// 1e9 samples do not drift.
-FN void film_add(global Scalar* sum, global Scalar* error, Real v) {
-    Real a = LOAD_REAL(sum);
-    Real s = a + v;
-    Real b = s - a;
-    Real e = (a - (s - b)) + (v - b);
-    STORE_REAL(sum, s);
-    STORE_REAL(error, LOAD_REAL(error) + e);
+/// The film of one block: a tile of every channel, the high parts of their sums and behind all of
+/// those the low ones.
+typedef struct {
+    global Scalar *high, *low;
+    long stride;  // floats between two channels
+    int channels; // of sums; those of spreads follow
+} FilmTile;
+
+FN TwoReal film_load(FilmTile film, long at) {
+    return two_real(LOAD_REAL(film.high + at), LOAD_REAL(film.low + at));
+}
+FN void film_store(FilmTile film, long at, TwoReal v) {
+    STORE_REAL(film.high + at, v.high);
+    STORE_REAL(film.low + at, v.low);
+}
+FN void film_add(FilmTile film, int channel, int cell, TwoReal v) {
+    long at = channel * film.stride + cell;
+    film_store(film, at, film_sum(film_load(film, at), v));
 }
 
 /// What the samples of a block have gathered.
@@ -22,15 +31,56 @@ FN Real block_result(BlockResults b, int channel, Int slot) {
     return gather(b.results + channel * b.stride, slot);
 }
 
-/// The samples whose radiance is finite; the others are left out.
-FN Mask finite_samples(BlockResults b, Int slot) {
-    return finite3(v3(block_result(b, result_r, slot), block_result(b, result_g, slot),
-                      block_result(b, result_b, slot)));
+/// A group of samples of a part of a block's pixels. Those that are not finite are left out: they
+/// have no weight, and nothing to be weighted.
+typedef struct {
+    Int slot[FILM_SAMPLES];
+    uint good[FILM_SAMPLES]; // which lanes' samples are finite
+    Real weight[FILM_SAMPLES];
+    Real radiance[3][FILM_SAMPLES];
+    int count;
+} SampleGroup;
+
+FN SampleGroup sample_group(BlockResults block, WaveParams wave, int part, int first, int count) {
+    SampleGroup g;
+    Real none = R(0.);
+    g.count = count;
+    for (int n = 0; n < count; n++) {
+        Int slot = part_slots(wave, part, first + n);
+        vec3 radiance = v3(block_result(block, result_r, slot), block_result(block, result_g, slot),
+                           block_result(block, result_b, slot));
+        Mask good = finite3(radiance);
+        g.slot[n] = slot;
+        g.good[n] = maskBits(good);
+        g.weight[n] = sel(good, block_result(block, result_weight, slot), none);
+        g.radiance[0][n] = sel(good, radiance.x, none);
+        g.radiance[1][n] = sel(good, radiance.y, none);
+        g.radiance[2][n] = sel(good, radiance.z, none);
+    }
+    return g;
 }
 
-/// What a sample has for a channel of the film, to be weighted.
-FN Real sample_value(BlockResults b, int channel, Int slot) {
+/// What a sample of a group has for a channel of the film, to be weighted.
+FN Real group_value(BlockResults block, const SampleGroup* g, int channel, int n) {
+    if (channel <= result_b) return g->radiance[channel][n];
     if (channel == result_weight) return R(1.);
-    if (channel < b.squares) return block_result(b, channel, slot);
-    return square(block_result(b, channel - b.squares, slot));
+    if (channel >= block.squares) return square(g->radiance[channel - block.squares][n]);
+    return sel(lanesOf(g->good[n]), block_result(block, channel, g->slot[n]), R(0.));
+}
+
+FN uint dropped_samples(const SampleGroup* g) {
+    uint dropped = 0;
+    for (int n = 0; n < g->count; n++)
+        dropped += LANES - popcount(g->good[n]);
+    return dropped;
+}
+
+/// Adds a group to the pixels its samples lie in.
+FN void add_group(BlockResults block, const SampleGroup* g, FilmTile film, int part) {
+    for (int channel = 0; channel < film.channels; channel++) {
+        TwoReal sum = two_real(R(0.), R(0.));
+        for (int n = 0; n < g->count; n++)
+            sum = group_add(sum, group_value(block, g, channel, n) * g->weight[n]);
+        film_add(film, channel, part * LANES, sum);
+    }
 }

@@ -2,7 +2,7 @@
 // the filter's value there.
 //
 // A block's samples go to a tile of the film of its own, so that work-items never write to the same
-// place; where tiles overlap, the host adds them up. SPLAT_SAMPLES samples are added up for each
+// place; where tiles overlap, the host adds them up. FILM_SAMPLES samples are added up for each
 // cell, in an order that is the same for any number of lanes, before the film gets their sum.
 
 #define REACH_PIXELS (2 * FILTER_REACH_LIMIT + 1)
@@ -53,13 +53,26 @@ FN void tile_add(Scalar* tile, int side, int x, int y, int part, Real v) {
 #endif
 }
 
+/// What the tile has for a part of a block's pixels.
+FN Real tile_load(const Scalar* tile, int side, int x, int y, int part) {
+#if LANES == 1
+    return tile[(y + part / 4) * side + x + part % 4];
+#else
+    PixelRows pixels;
+    const Scalar* corner = tile + (y + part * (LANES / 4)) * side + x;
+    for (int row = 0; row < LANES / 4; row++)
+        pixels.rows[row] = *(private const Float4Anywhere*)(corner + row * side);
+    return pixels.lanes;
+#endif
+}
+
 /// Adds `count` samples of a part's pixels, one value each, to the tile. For each cell pixels come
 /// in the order of their numbers, and of each pixel the sum of its samples.
 FN void tile_splat(Scalar* tile, int reach, int part, const Real* values,
                    const SplatWeights* weights, int count) {
     int side = TILE_SIDE(reach);
     for (int y = 2 * reach; y >= 0; y--) {
-        Real row[SPLAT_SAMPLES];
+        Real row[FILM_SAMPLES];
         for (int n = 0; n < count; n++)
             row[n] = values[n] * weights[n].y[y];
         for (int x = 2 * reach; x >= 0; x--) {
@@ -71,42 +84,35 @@ FN void tile_splat(Scalar* tile, int reach, int part, const Real* values,
     }
 }
 
-/// Splats the samples [first, first + count) of a block to its tile, count <= SPLAT_SAMPLES.
-/// Returns how many samples were not finite and are left out.
-FN uint splat_block(BlockResults block, WaveParams wave, int first, int count,
-                    global const float* filter, const RenderParams* params, int film_channels,
-                    global Scalar* sums, global Scalar* errors) {
-    SplatWeights weights[BLOCK_PARTS][SPLAT_SAMPLES];
-    uint good[BLOCK_PARTS][SPLAT_SAMPLES];
-    int reach = params->filter_reach;
-    uint dropped = 0;
+typedef struct {
+    SplatWeights of[FILM_SAMPLES];
+} GroupWeights;
+
+FN void group_weights(GroupWeights* w, BlockResults block, const SampleGroup* g,
+                      global const float* filter, int reach) {
+    for (int n = 0; n < g->count; n++)
+        splat_weights(&w->of[n], filter, reach, block_result(block, block.squares, g->slot[n]),
+                      block_result(block, block.squares + 1, g->slot[n]), g->weight[n]);
+}
+
+/// Splats a group of samples of each part of a block to its tile.
+FN void splat_groups(BlockResults block, const SampleGroup* groups, global const float* filter,
+                     int reach, FilmTile film) {
+    GroupWeights weights[BLOCK_PARTS];
+    int count = groups[0].count, cells = TILE_CELLS(reach) / LANES;
     for (int part = 0; part < BLOCK_PARTS; part++)
-        for (int n = 0; n < count; n++) {
-            Int slot = part_slots(wave, part, first + n);
-            Mask finite = finite_samples(block, slot);
-            good[part][n] = maskBits(finite);
-            dropped += LANES - popcount(good[part][n]);
-            Real weight = sel(finite, block_result(block, result_weight, slot), R(0.));
-            splat_weights(&weights[part][n], filter, reach,
-                          block_result(block, block.squares, slot),
-                          block_result(block, block.squares + 1, slot), weight);
-        }
-    for (int channel = 0; channel < film_channels; channel++) {
+        group_weights(&weights[part], block, &groups[part], filter, reach);
+    for (int channel = 0; channel < film.channels; channel++) {
         Real tile[TILE_CELLS(FILTER_REACH_LIMIT) / LANES];
-        for (int k = 0; k < TILE_CELLS(reach) / LANES; k++)
+        for (int k = 0; k < cells; k++)
             tile[k] = R(0.);
         for (int part = 0; part < BLOCK_PARTS; part++) {
-            Real values[SPLAT_SAMPLES];
+            Real values[FILM_SAMPLES];
             for (int n = 0; n < count; n++)
-                values[n] =
-                    sel(lanesOf(good[part][n]),
-                        sample_value(block, channel, part_slots(wave, part, first + n)), R(0.));
-            tile_splat((Scalar*)tile, reach, part, values, weights[part], count);
+                values[n] = group_value(block, &groups[part], channel, n);
+            tile_splat((Scalar*)tile, reach, part, values, weights[part].of, count);
         }
-        for (int k = 0; k < TILE_CELLS(reach) / LANES; k++) {
-            long cell = (long)channel * params->film_stride + k * LANES;
-            film_add(sums + cell, errors + cell, tile[k]);
-        }
+        for (int k = 0; k < cells; k++)
+            film_add(film, channel, k * LANES, two_real(tile[k], R(0.)));
     }
-    return dropped;
 }

@@ -24,6 +24,9 @@
     X(albedo, 3, "RGB") X(sh_normal, 3, "XYZ") X(geo_normal, 3, "XYZ") X(position, 3, "XYZ")       \
     X(uv, 2, "UV") X(depth, 1, "T") X(shape_index, 1, "I") X(prim_index, 1, "I")
 
+// What the film itself tells of a pixel's samples: name, number of channels, suffixes.
+#define FILM_AOVS(X) X(variance, 3, "RGB") X(samples, 1, "N")
+
 // What a scene can need beside its materials, emitters and shapes.
 #define OTHER_FEATURES(X)                                                                          \
     X(ray_streams)        /* so many primitives that rays soon part ways */                        \
@@ -43,6 +46,7 @@
     X(russian_roulette)                                                                            \
     X(view_normals) X(view_depth)                                                                  \
     X(moments)            /* the second moment of the radiance is asked for */                      \
+    X(variance)           /* how the samples of a pixel spread is asked for */                      \
     X(aovs)
 // clang-format on
 
@@ -67,6 +71,8 @@ enum EmitterKind { EMITTERS(KIND_EMITTER) emitter_kind_count };
 enum GeometryKind { GEOMETRIES(KIND_GEOMETRY) geometry_kind_count };
 #define KIND_AOV(name, channels, suffixes) aov_##name,
 enum AovKind { AOVS(KIND_AOV) aov_kind_count };
+#define KIND_FILM_AOV(name, channels, suffixes) film_aov_##name,
+enum FilmAovKind { FILM_AOVS(KIND_FILM_AOV) film_aov_kind_count };
 
 #define HAS(x) (((FEATURE_MASK) >> feature_##x) & 1u)
 

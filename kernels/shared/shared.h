@@ -7,6 +7,7 @@
 #include "shared/records.h"
 #include "shared/two_real.h"
 
+#include "shared/film_sum.h"
 #include "shared/fresnel.h"
 #include "shared/intersect.h"
 #include "shared/sampler.h"

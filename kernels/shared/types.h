@@ -200,8 +200,8 @@ LAYOUT(WaveParams, 16);
 #define TILE_SIDE(reach) (4 + 2 * (reach))
 #define TILE_CELLS(reach) ((TILE_SIDE(reach) * TILE_SIDE(reach) + 15) / 16 * 16)
 
-// Splatting adds up so many samples of a block before the film gets their sum: waves hold a multiple of them.
-#define SPLAT_SAMPLES 16
+// So many samples of a block are added up before the film gets their sum: waves hold a multiple of them.
+#define FILM_SAMPLES 16
 
 // Intervals a pixel of a filter's tabulated values; between them they are interpolated.
 #define FILTER_INTERVALS 1024

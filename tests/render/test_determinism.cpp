@@ -55,7 +55,7 @@ TEST_CASE("The image is the same bits however the work is done", "[render]") {
     Scene scene = every_kind_scene();
     Image reference = image_of(scene, {});
     CHECK(mean_of(reference, "R") > 0.05);
-    CHECK(reference.channels.size() == 4 + 3 + 1 + 2 + 3);
+    CHECK(reference.channels.size() == 4 + 3 + 1 + 2 + 3 + 1 + 3);
 
     SECTION("two runs") { CHECK(differing_values(reference, image_of(scene, {})) == 0); }
     SECTION("another seed is another image") {

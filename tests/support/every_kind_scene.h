@@ -80,7 +80,11 @@ inline Scene every_kind_scene() {
     scene.film.filter.kind = FilterKind::gaussian;
     scene.integrator.rr_depth = 3;
     scene.integrator.second_moment = true;
-    scene.integrator.aovs = {{"nn", "sh_normal", {}}, {"dd", "depth", {}}, {"uv", "uv", {}}};
+    scene.integrator.aovs = {{"nn", "sh_normal", {}},
+                             {"dd", "depth", {}},
+                             {"uv", "uv", {}},
+                             {"variance", "variance", {}},
+                             {"samples", "samples", {}}};
     scene.sampler.samples_per_pixel = 18;
     scene.sampler.seed = 5;
     return scene;

@@ -1,0 +1,77 @@
+// The film's sums and spreads: against long double, over many samples.
+#include "tests/support/film_drift.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+using namespace parhelion;
+using namespace parhelion::test;
+
+TEST_CASE("Film: mean and variance of 1e7 samples do not drift") {
+    for (const FilmFeed& feed : film_feeds) {
+        FilmDrift off = film_drift(feed, 10'000'000);
+        fmt::print("{:<30} mean {:.1e}, mean beside the spread {:.1e}, variance {:.1e}\n",
+                   feed.name, off.mean, off.spread_mean, off.variance);
+        CAPTURE(feed.name);
+        CHECK(off.mean < 1e-9);
+        CHECK(off.spread_mean < 1e-6);
+        CHECK(off.variance < 2e-6);
+    }
+}
+
+TEST_CASE("Film: errors of sums that are only added up drift, which is why they are taken up") {
+    f32::TwoReal sum{0, 0};
+    constexpr int count = 10'000'000;
+    for (int i = 0; i < count; i++)
+        sum = f32::group_add(sum, 1000.5f);
+    double mean = (double{sum.high} + sum.low) / count;
+    CHECK(std::abs(mean / 1000.5 - 1) > 1e-3);
+}
+
+TEST_CASE("Film: a spread does not depend on the centres its groups were measured about") {
+    Random random(3);
+    double worst_mean = 0, worst_spread = 0;
+    for (int round = 0; round < 20000; round++) {
+        double middle = random.sign() * random.log_between(1e-3, 1e6);
+        double width = std::abs(middle) * random.log_between(1e-6, 1e2);
+        f32::Spread spread{{0, 0}, {0, 0}};
+        f32::TwoReal weight{0, 0};
+        std::vector<std::pair<long double, long double>> samples; // weight, value
+        for (int group = 0; group < 20; group++) {
+            f32::GroupSpread g{0, float(middle + width * random.between(-1, 1)), 0, 0};
+            for (int k = random.bits() % 5; k > 0; k--) {
+                float x = float(middle + width * random.between(-1, 1));
+                float w = float(random.log_between(1e-4, 1)), d = x - g.centre;
+                g.weight += w, g.first += w * d, g.second += w * d * d;
+                samples.emplace_back(w, x);
+            }
+            spread = f32::spread_join(spread, weight.high, g);
+            weight = f32::film_sum(weight, {g.weight, 0});
+        }
+        long double total = 0, sum = 0, squares = 0;
+        for (auto [w, x] : samples)
+            total += w, sum += w * x;
+        for (auto [w, x] : samples)
+            squares += w * (x - sum / total) * (x - sum / total);
+        if (samples.size() < 2) continue;
+        long double mean = (long double)spread.mean.high + spread.mean.low;
+        worst_mean = std::max(worst_mean, double(std::abs(mean - sum / total) / width));
+        worst_spread = std::max(worst_spread, double(std::abs(spread.spread.high / squares - 1)));
+        REQUIRE(spread.spread.high >= 0);
+    }
+    fmt::print("spread: mean off by {:.1e} of the width, spread by {:.1e}\n", worst_mean,
+               worst_spread);
+    CHECK(worst_mean < 1e-6);
+    CHECK(worst_spread < 1e-4); // samples rounded to 16 ulps of their width
+}
+
+TEST_CASE("Film: a group of no weight changes nothing") {
+    f32::Spread before{{3, 1e-9f}, {5, 1e-8f}};
+    f32::Spread after = f32::spread_join(before, 7, {0, 100, 0, 0});
+    CHECK(after.mean.high == before.mean.high);
+    CHECK(after.mean.low == before.mean.low);
+    CHECK(after.spread.high == before.spread.high);
+    CHECK(after.spread.low == before.spread.low);
+    f32::Spread first = f32::spread_join({{0, 0}, {0, 0}}, 0, {0, 0, 0, 0});
+    CHECK((first.mean.high == 0 && first.spread.high == 0));
+}
