@@ -109,6 +109,7 @@ FN void write_aovs(global Scalar* results, RenderParams params, PathVertex v, Pr
     AOV3(sh_normal, s.ns)
     AOV3(geo_normal, s.ng)
     AOV3(position, s.p)
+    AOV1(position, 3, R(1.))
     AOV1(uv, 0, s.uv.x)
     AOV1(uv, 1, s.uv.y)
     AOV1(depth, 0, v.t)

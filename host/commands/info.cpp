@@ -4,6 +4,7 @@
 #include "host/commands/render.h"
 #include "host/error.h"
 #include "host/render/device_scene.h"
+#include "host/render/report.h"
 #include "host/scene/load.h"
 
 #include <fmt/format.h>
@@ -43,6 +44,7 @@ nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
     return {{"scene", scene.file},
             {"film", {{"width_pixels", scene.film.width}, {"height_pixels", scene.film.height}}},
             {"samples_per_pixel", scene.sampler.samples_per_pixel},
+            {"frame", to_json(flat.frame)},
             {"shapes", shapes},
             {"triangles", triangles},
             {"primitives", flat.primitives.size()},
@@ -73,6 +75,9 @@ void print_text(const nlohmann::json& info) {
     fmt::print("{}\n", info["scene"].get<std::string>());
     fmt::print("  film       {} x {} pixels, {} spp\n", info["film"]["width_pixels"].get<int>(),
                info["film"]["height_pixels"].get<int>(), info["samples_per_pixel"].get<int>());
+    fmt::print("  frame      centre ({:g}), unit 2^{}\n",
+               fmt::join(info["frame"]["centre"].get<std::vector<double>>(), ", "),
+               info["frame"]["unit_exponent"].get<int>());
     fmt::print("  shapes     {} ({} triangles)\n", counted(info["shapes"]),
                info["triangles"].get<std::size_t>());
     fmt::print("  materials  {}\n", counted(info["materials"]));

@@ -36,15 +36,16 @@ double horizontal_fov(const Camera& camera, int width, int height) {
     return 2.0 * std::atan(half_tangent);
 }
 
-CameraRecord camera_record(const Camera& camera, int width, int height) {
+CameraRecord camera_record(const Camera& camera, int width, int height, const SceneFrame& frame) {
     glm::dvec3 left(camera.to_world[0]), up(camera.to_world[1]), forward(camera.to_world[2]);
     double pixel = 2.0 * std::tan(0.5 * horizontal_fov(camera, width, height)) / width;
     glm::dvec3 step_x = -left * pixel, step_y = -up * pixel;
     glm::dvec2 centre = (0.5 - camera.principal_point_offset) * glm::dvec2(width, height);
-    Point o = to_float(glm::dvec3(camera.to_world[3]));
+    double lens = camera.aperture_radius * frame.scale;
+    Point o = to_float(frame.point(glm::dvec3(camera.to_world[3])));
     Point d = to_float(forward - centre.x * step_x - centre.y * step_y);
     Point u = to_float(step_x), v = to_float(step_y);
-    Point l = to_float(left * camera.aperture_radius), m = to_float(up * camera.aperture_radius);
+    Point l = to_float(left * lens), m = to_float(up * lens);
     return {o.x,
             o.y,
             o.z,
@@ -63,9 +64,9 @@ CameraRecord camera_record(const Camera& camera, int width, int height) {
             m.x,
             m.y,
             m.z,
-            static_cast<float>(camera.near_clip),
-            static_cast<float>(camera.far_clip),
-            static_cast<float>(camera.focus_distance)};
+            static_cast<float>(camera.near_clip * frame.scale),
+            static_cast<float>(camera.far_clip * frame.scale),
+            static_cast<float>(camera.focus_distance * frame.scale)};
 }
 
 } // namespace parhelion

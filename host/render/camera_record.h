@@ -1,7 +1,7 @@
 // The camera as the device reads it.
 #pragma once
 
-#include "host/scene/scene.h"
+#include "host/render/scene_frame.h"
 #include "kernels/shared/types.h"
 
 namespace parhelion {
@@ -10,6 +10,6 @@ namespace parhelion {
 /// gives.
 double horizontal_fov(const Camera& camera, int width, int height);
 
-CameraRecord camera_record(const Camera& camera, int width, int height);
+CameraRecord camera_record(const Camera& camera, int width, int height, const SceneFrame& frame);
 
 } // namespace parhelion

@@ -76,7 +76,8 @@ void add_shape(const Mesh& mesh, const Shape& shape, int index, DeviceScene& out
         const glm::uvec3& t = mesh.triangles[i];
         PrimitiveRecord p = primitive(shape, index, geometry_triangle, flags);
         p.index_in_shape = static_cast<int>(i);
-        set_points(p, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+        set_points(p, out.frame.point(mesh.positions[t.x]), out.frame.point(mesh.positions[t.y]),
+                   out.frame.point(mesh.positions[t.z]));
         glm::dvec3 a(p.ax, p.ay, p.az);
         p.extra = inverse_normal_length(glm::dvec3(p.bx, p.by, p.bz) - a,
                                         glm::dvec3(p.cx, p.cy, p.cz) - a);
@@ -90,7 +91,8 @@ void add_analytic(const PrimitiveRecord& p, DeviceScene& out) {
     if (has_vertices(out)) out.vertices.push_back({});
 }
 
-void add_shape(const Sphere& sphere, const Shape& shape, int index, DeviceScene& out) {
+void add_shape(const Sphere& in_scene, const Shape& shape, int index, DeviceScene& out) {
+    Sphere sphere = out.frame.sphere(in_scene);
     PrimitiveRecord p =
         primitive(shape, index, geometry_sphere, sphere.flip_normals ? PRIMITIVE_FLIPPED : 0);
     set_points(p, sphere.center, sphere.axis_x, sphere.axis_z);
@@ -98,7 +100,8 @@ void add_shape(const Sphere& sphere, const Shape& shape, int index, DeviceScene&
     add_analytic(p, out);
 }
 
-void add_shape(const Disk& disk, const Shape& shape, int index, DeviceScene& out) {
+void add_shape(const Disk& in_scene, const Shape& shape, int index, DeviceScene& out) {
+    Disk disk = out.frame.disk(in_scene);
     PrimitiveRecord p =
         primitive(shape, index, geometry_disk, disk.flip_normals ? PRIMITIVE_FLIPPED : 0);
     set_points(p, disk.center, disk.edge_u, disk.edge_v);
@@ -138,7 +141,8 @@ static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
         throw InputError(fmt::format("{}: {} primitives; the device indexes at most {}", scene.file,
                                      count, most));
     DeviceScene out;
-    out.features = scene_features(scene);
+    out.frame = scene_frame(scene);
+    out.features = scene_features(scene, out.frame);
     out.primitives.reserve(count);
     if (has_vertices(out)) out.vertices.reserve(count);
     for (std::size_t i = 0; i < scene.shapes.size(); i++)

@@ -3,6 +3,7 @@
 
 #include "host/bvh/bvh.h"
 #include "host/large_vector.h"
+#include "host/render/scene_frame.h"
 #include "host/scene/scene.h"
 #include "kernels/device/buffers.h"
 #include "kernels/shared/features.h"
@@ -23,7 +24,9 @@ struct LightTree {
 /// alone.
 enum class LightChoice { importance, power };
 
+/// All places and lengths are in the units of `frame`, about its centre.
 struct DeviceScene {
+    SceneFrame frame;
     LargeVector<PrimitiveRecord> primitives;
     LargeVector<VertexRecord>
         vertices; ///< parallel to primitives; empty where no mesh has attributes that are read

@@ -59,9 +59,26 @@ std::vector<float> combine(const std::array<std::vector<float>, 3>& rgb, const d
     return out;
 }
 
-void add_main_layer(const FilmReader& film, PixelFormat format, Image& image) {
-    std::array<std::vector<float>, 3> rgb{film.means(result_r), film.means(result_g),
-                                          film.means(result_b)};
+std::vector<float> scaled(std::vector<float> values, double factor) {
+    for (float& v : values)
+        v = static_cast<float>(v * factor);
+    return values;
+}
+
+/// Coordinates in the scene. `shares`: of each pixel what is covered by them, since the centre is
+/// only added there.
+std::vector<float> in_scene(std::vector<float> coordinates, const std::vector<float>& shares,
+                            double centre, double unit) {
+    for (std::size_t i = 0; i < coordinates.size(); i++)
+        coordinates[i] = static_cast<float>(coordinates[i] * unit + centre * shares[i]);
+    return coordinates;
+}
+
+/// `unit`: what radiance 1 stands for.
+void add_main_layer(const FilmReader& film, PixelFormat format, double unit, Image& image) {
+    std::array<std::vector<float>, 3> rgb{scaled(film.means(result_r), unit),
+                                          scaled(film.means(result_g), unit),
+                                          scaled(film.means(result_b), unit)};
     switch (format) {
     case PixelFormat::luminance:
     case PixelFormat::luminance_alpha:
@@ -82,6 +99,21 @@ void add_main_layer(const FilmReader& film, PixelFormat format, Image& image) {
     if (format == PixelFormat::luminance_alpha || format == PixelFormat::rgba ||
         format == PixelFormat::xyza)
         add_channel(image, "A", film.means(result_alpha));
+}
+
+void add_aov_layer(const FilmReader& film, const AovLayer& layer, const SceneFrame& frame,
+                   Image& image) {
+    const AovKindInfo& kind = aov_kinds[layer.kind];
+    auto means = [&](int channel) {
+        return film.means(result_field_count + layer.channel + channel);
+    };
+    for (int c = 0; c < static_cast<int>(kind.suffixes.size()); c++) {
+        std::vector<float> values = means(c);
+        if (layer.kind == aov_depth) values = scaled(std::move(values), frame.unit());
+        if (layer.kind == aov_position)
+            values = in_scene(std::move(values), means(3), frame.centre()[c], frame.unit());
+        add_channel(image, fmt::format("{}.{}", layer.name, kind.suffixes[c]), std::move(values));
+    }
 }
 
 } // namespace
@@ -116,32 +148,29 @@ AovPlan plan_aovs(const Scene& scene) {
 }
 
 Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene,
-                 const AovPlan& aovs) {
+                 const AovPlan& aovs, const SceneFrame& frame) {
     const Film& crop = scene.film;
     Image image;
     image.width = crop.crop_width, image.height = crop.crop_height;
     image.full_width = crop.width, image.full_height = crop.height;
     image.offset_x = crop.crop_x, image.offset_y = crop.crop_y;
     FilmReader reader(film, sizes, crop);
-    add_main_layer(reader, crop.pixel_format, image);
-    for (const AovLayer& layer : aovs.layers) {
-        const AovKindInfo& kind = aov_kinds[layer.kind];
-        for (int c = 0; c < kind.channels; c++)
-            add_channel(image, fmt::format("{}.{}", layer.name, kind.suffixes[c]),
-                        reader.means(result_field_count + layer.channel + c));
-    }
+    double unit = scene.integrator.kind == IntegratorKind::depth ? frame.unit() : 1.0;
+    add_main_layer(reader, crop.pixel_format, unit, image);
+    for (const AovLayer& layer : aovs.layers)
+        add_aov_layer(reader, layer, frame, image);
     for (const AovLayer& layer : aovs.film_layers) {
         const AovKindInfo& kind = film_aov_kinds[layer.kind];
-        for (int c = 0; c < kind.channels; c++)
+        for (int c = 0; c < static_cast<int>(kind.suffixes.size()); c++)
             add_channel(image, fmt::format("{}.{}", layer.name, kind.suffixes[c]),
-                        layer.kind == film_aov_variance ? reader.variances(c)
+                        layer.kind == film_aov_variance ? scaled(reader.variances(c), unit * unit)
                                                         : reader.sample_counts());
     }
     if (scene.integrator.second_moment) {
         constexpr std::string_view suffixes = "RGB";
         for (int c = 0; c < 3; c++)
             add_channel(image, fmt::format("second_moment.{}", suffixes[c]),
-                        reader.means(result_field_count + aovs.channels + c));
+                        scaled(reader.means(result_field_count + aovs.channels + c), unit * unit));
     }
     return image;
 }

@@ -30,9 +30,9 @@ bool is_film_aov(const AovRequest& request);
 /// those there are, and for a variance of one sample.
 AovPlan plan_aovs(const Scene& scene);
 
-/// Divides the film's sums by the filter weights and names the channels. `film` as the accumulate
-/// kernel leaves it.
+/// Divides the film's sums by the filter weights, turns what the device has in the units of `frame`
+/// into the scene's own, and names the channels. `film` as the accumulate kernel leaves it.
 Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene,
-                 const AovPlan& aovs);
+                 const AovPlan& aovs, const SceneFrame& frame);
 
 } // namespace parhelion

@@ -5,7 +5,8 @@
 
 namespace parhelion {
 
-/// `area`: of the emitting surface, m^2; 0 for a light without one. `power`: in the table's unit.
+/// `area`: of the emitting surface, device units; 0 for a light without one. `power`: in the
+/// table's unit.
 LightBounds light_bounds(const LightRecord& light, double area, double power);
 
 } // namespace parhelion

@@ -34,7 +34,8 @@ void set_c(LightRecord& l, const glm::dvec3& v) {
     l.cx = static_cast<float>(v.x), l.cy = static_cast<float>(v.y), l.cz = static_cast<float>(v.z);
 }
 
-/// A row of the table in the making; power is in any common unit, area in m^2 (0: no area).
+/// A row of the table in the making; power is in any common unit, area in the device's (0: no
+/// area).
 struct Row {
     LightRecord light{};
     double power = 0.0;
@@ -127,16 +128,24 @@ Row primitive_row(const DeviceScene& scene, int index, bool pair, const Rgb& rad
     return row;
 }
 
-Row emitter_row(const PointEmitter& e, double) {
-    Row row = make_row(emitter_point, e.intensity);
-    set_a(row.light, e.position);
-    row.power = 4.0 * pi * brightness(e.intensity);
+/// What rows of emitters that are no surfaces are made with.
+struct Surroundings {
+    const SceneFrame& frame;
+    double radius; ///< of the scene, device units
+};
+
+Row emitter_row(const PointEmitter& e, const Surroundings& s) {
+    Rgb intensity = s.frame.intensity(e.intensity);
+    Row row = make_row(emitter_point, intensity);
+    set_a(row.light, s.frame.point(e.position));
+    row.power = 4.0 * pi * brightness(intensity);
     return row;
 }
 
-Row emitter_row(const SpotEmitter& e, double) {
-    Row row = make_row(emitter_spot, e.intensity);
-    set_a(row.light, e.position);
+Row emitter_row(const SpotEmitter& e, const Surroundings& s) {
+    Rgb intensity = s.frame.intensity(e.intensity);
+    Row row = make_row(emitter_spot, intensity);
+    set_a(row.light, s.frame.point(e.position));
     set_b(row.light, e.direction);
     row.light.cx = static_cast<float>(std::cos(e.cutoff_angle));
     row.light.cy = static_cast<float>(e.cutoff_angle);
@@ -144,21 +153,21 @@ Row emitter_row(const SpotEmitter& e, double) {
     double transition = e.cutoff_angle - e.beam_width;
     row.light.cz = transition > 0.0 ? static_cast<float>(1.0 / transition) : 0.0f;
     row.light.extra = static_cast<float>(std::cos(e.beam_width));
-    row.power = 2.0 * pi * (1.0 - std::cos(0.5 * (e.cutoff_angle + e.beam_width))) *
-                brightness(e.intensity);
+    row.power =
+        2.0 * pi * (1.0 - std::cos(0.5 * (e.cutoff_angle + e.beam_width))) * brightness(intensity);
     return row;
 }
 
-Row emitter_row(const DirectionalEmitter& e, double scene_radius) {
+Row emitter_row(const DirectionalEmitter& e, const Surroundings& s) {
     Row row = make_row(emitter_directional, e.irradiance);
     set_b(row.light, e.direction);
-    row.power = pi * scene_radius * scene_radius * brightness(e.irradiance);
+    row.power = pi * s.radius * s.radius * brightness(e.irradiance);
     return row;
 }
 
-Row emitter_row(const ConstantEmitter& e, double scene_radius) {
+Row emitter_row(const ConstantEmitter& e, const Surroundings& s) {
     Row row = make_row(emitter_constant, e.radiance);
-    row.power = 4.0 * pi * pi * scene_radius * scene_radius * brightness(e.radiance);
+    row.power = 4.0 * pi * pi * s.radius * s.radius * brightness(e.radiance);
     return row;
 }
 
@@ -192,15 +201,16 @@ std::vector<Row> collect_rows(const Scene& scene, const DeviceScene& device) {
         const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
         int count = mesh ? static_cast<int>(mesh->triangles.size()) : 1;
         if (shape.radiance) {
-            std::vector<bool> pairs = mesh ? starts_parallelogram(*mesh) : std::vector{false};
+            std::vector<bool> pairs =
+                mesh ? starts_parallelogram(*mesh, device.frame) : std::vector{false};
             for (int i = 0; i < count; i += pairs[i] ? 2 : 1)
                 rows.push_back(primitive_row(device, first + i, pairs[i], *shape.radiance));
         }
         first += count;
     }
-    double radius = scene_radius(device.primitives);
+    Surroundings around{device.frame, scene_radius(device.primitives)};
     for (const Emitter& emitter : scene.emitters)
-        rows.push_back(std::visit([&](const auto& e) { return emitter_row(e, radius); }, emitter));
+        rows.push_back(std::visit([&](const auto& e) { return emitter_row(e, around); }, emitter));
     std::erase_if(rows, [](const Row& row) { return !(row.power > 0.0); });
     return rows;
 }

@@ -17,7 +17,7 @@ struct LightBounds {
     glm::dvec3 axis{0, 0, 1};       ///< unit
     double cos_spread = 1.0;        ///< every light's axis is within this angle of `axis`, and
     double cos_emission = 1.0;      ///< shines within this angle of its own
-    double intensity = 0.0;         ///< largest, W/sr
+    double intensity = 0.0;         ///< largest, radiance times device units squared
     double power = 0.0;             ///< in the unit of the light table
     bool distant = false;           ///< without place: chosen by power alone
 };

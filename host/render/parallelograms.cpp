@@ -20,17 +20,17 @@ int own_corner(const Corners& triangle, const Corners& other) {
     return count == 1 ? own : -1;
 }
 
-Corners corners(const Mesh& mesh, std::size_t triangle) {
+Corners corners(const Mesh& mesh, std::size_t triangle, const SceneFrame& frame) {
     const glm::uvec3& t = mesh.triangles[triangle];
-    return {glm::vec3(mesh.positions[t.x]), glm::vec3(mesh.positions[t.y]),
-            glm::vec3(mesh.positions[t.z])};
+    auto rounded = [&](unsigned i) { return glm::vec3(frame.point(mesh.positions[i])); };
+    return {rounded(t.x), rounded(t.y), rounded(t.z)};
 }
 
 /// Does the triangle's winding face the side of its vertex normals?
-bool faces_normals(const Mesh& mesh, std::size_t triangle) {
+bool faces_normals(const Mesh& mesh, std::size_t triangle, const SceneFrame& frame) {
     if (mesh.normals.empty()) return true;
     const glm::uvec3& t = mesh.triangles[triangle];
-    Corners p = corners(mesh, triangle);
+    Corners p = corners(mesh, triangle, frame);
     glm::dvec3 sum = mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z];
     return glm::dot(sum, glm::cross(p[1] - p[0], p[2] - p[0])) >= 0.0;
 }
@@ -51,12 +51,13 @@ std::optional<Parallelogram> parallelogram_of(const Corners& first, const Corner
     return Parallelogram{a, b, c};
 }
 
-std::vector<bool> starts_parallelogram(const Mesh& mesh) {
+std::vector<bool> starts_parallelogram(const Mesh& mesh, const SceneFrame& frame) {
     std::vector<bool> starts(mesh.triangles.size());
     for (std::size_t i = 0; i + 1 < starts.size(); i++) {
         bool taken = i > 0 && starts[i - 1];
-        starts[i] = !taken && parallelogram_of(corners(mesh, i), corners(mesh, i + 1)) &&
-                    faces_normals(mesh, i) == faces_normals(mesh, i + 1);
+        starts[i] = !taken &&
+                    parallelogram_of(corners(mesh, i, frame), corners(mesh, i + 1, frame)) &&
+                    faces_normals(mesh, i, frame) == faces_normals(mesh, i + 1, frame);
     }
     return starts;
 }

@@ -1,7 +1,7 @@
 // Pairs of triangles that together are one parallelogram: a lamp of two triangles is one light.
 #pragma once
 
-#include "host/scene/scene.h"
+#include "host/render/scene_frame.h"
 
 #include <array>
 #include <optional>
@@ -19,8 +19,8 @@ using Parallelogram = std::array<glm::dvec3, 3>;
 std::optional<Parallelogram> parallelogram_of(const std::array<glm::dvec3, 3>& first,
                                               const std::array<glm::dvec3, 3>& second);
 
-/// For each triangle of a mesh: does it make a parallelogram with the next one (which then does not
-/// with its own next)? Smooth normals must agree which side is the front.
-std::vector<bool> starts_parallelogram(const Mesh& mesh);
+/// For each triangle of a mesh, as the device has it: does it make a parallelogram with the next
+/// one (which then does not with its own next)? Smooth normals must agree which side is the front.
+std::vector<bool> starts_parallelogram(const Mesh& mesh, const SceneFrame& frame);
 
 } // namespace parhelion

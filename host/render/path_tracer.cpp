@@ -86,6 +86,7 @@ RenderReport start_report(const Scene& scene, const DeviceScene& flat) {
     report.samples_per_pixel = scene.sampler.samples_per_pixel;
     report.seed = scene.sampler.seed;
     report.sampler = sample_pattern_names[static_cast<std::size_t>(scene.sampler.pattern)];
+    report.frame = flat.frame;
     report.primitives = flat.primitives.size();
     report.lights = flat.lights.size();
     report.device_scene_bytes = flat.bytes();
@@ -153,7 +154,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
         "{:.2f} Mpaths/s, {:.2f} Mrays/s",
         static_cast<double>(result.report.paths) / result.report.render_seconds / 1e6,
         static_cast<double>(result.report.rays()) / result.report.render_seconds / 1e6));
-    result.image = film_image(pipeline.read_film(), sizes, scene, aovs);
+    result.image = film_image(pipeline.read_film(), sizes, scene, aovs, flat.frame);
     return result;
 }
 

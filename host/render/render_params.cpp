@@ -29,7 +29,7 @@ int longest_path(const Integrator& integrator) {
 RenderParams render_params(const Scene& scene, const DeviceScene& device, const WorkSizes& sizes,
                            const AovPlan& aovs) {
     RenderParams p{};
-    p.camera = camera_record(scene.camera, scene.film.width, scene.film.height);
+    p.camera = camera_record(scene.camera, scene.film.width, scene.film.height, device.frame);
     p.film_width = scene.film.width, p.film_height = scene.film.height;
     p.sample_border = scene.film.sample_border;
     p.pixel_stride = sizes.window.pixel_stride;

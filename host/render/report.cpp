@@ -25,6 +25,13 @@ bool RenderReport::all_cached() const {
     return std::all_of(stages.begin(), stages.end(), [](const StageReport& s) { return s.cached; });
 }
 
+nlohmann::json to_json(const SceneFrame& frame) {
+    glm::dvec3 centre = frame.centre();
+    return {{"centre", {centre.x, centre.y, centre.z}},
+            {"unit", frame.unit()},
+            {"unit_exponent", frame.unit_exponent()}};
+}
+
 nlohmann::json to_json(const RenderReport& r) {
     nlohmann::json stages = nlohmann::json::array();
     for (const StageReport& s : r.stages)
@@ -45,6 +52,7 @@ nlohmann::json to_json(const RenderReport& r) {
               {"upload_seconds", r.upload_seconds},
               {"render_seconds", r.render_seconds},
               {"write_seconds", r.write_seconds}}},
+            {"frame", to_json(r.frame)},
             {"stages", stages},
             {"counts",
              {{"paths", r.paths},

@@ -1,6 +1,8 @@
 // What a render did and what it cost, for people and for scripts.
 #pragma once
 
+#include "host/render/scene_frame.h"
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
@@ -23,6 +25,7 @@ struct RenderReport {
     int lanes = 1, width = 0, height = 0, samples_per_pixel = 0;
     std::uint32_t seed = 0;
     std::string sampler; ///< pattern of the samples: "sobol" or "independent"
+    SceneFrame frame;    ///< that the device sees the scene in
     double load_seconds = 0.0, bvh_seconds = 0.0, compile_seconds = 0.0, upload_seconds = 0.0,
            render_seconds = 0.0, write_seconds = 0.0;
     std::vector<StageReport> stages;
@@ -40,6 +43,9 @@ struct RenderReport {
 
 /// One object; every key that has a unit ends in it.
 nlohmann::json to_json(const RenderReport& report);
+
+/// Centre (scene's units) and unit (scene's units, a power of two).
+nlohmann::json to_json(const SceneFrame& frame);
 
 /// The most memory this process has had, bytes.
 std::uint64_t peak_host_bytes();

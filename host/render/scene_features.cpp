@@ -78,20 +78,20 @@ bool reads_uv(const Scene& scene, const FeatureSet& set) {
            std::any_of(scene.integrator.aovs.begin(), scene.integrator.aovs.end(), is_uv);
 }
 
-void add_mesh_emitter(const Mesh& mesh, FeatureSet& set) {
-    std::vector<bool> starts = starts_parallelogram(mesh);
+void add_mesh_emitter(const Mesh& mesh, const SceneFrame& frame, FeatureSet& set) {
+    std::vector<bool> starts = starts_parallelogram(mesh, frame);
     auto pairs = std::count(starts.begin(), starts.end(), true);
     set.add_if(pairs > 0, feature_emitter_area_parallelogram);
     set.add_if(2 * pairs < std::ssize(starts), feature_emitter_area_triangle);
 }
 
-void add_shapes(const Scene& scene, bool uv, FeatureSet& set) {
+void add_shapes(const Scene& scene, const SceneFrame& frame, bool uv, FeatureSet& set) {
     for (const Shape& shape : scene.shapes) {
         if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
             set.add(feature_shape_triangle);
             set.add_if(!mesh->normals.empty(), feature_vertex_normals);
             set.add_if(!mesh->uvs.empty() && uv, feature_vertex_uvs);
-            if (shape.radiance) add_mesh_emitter(*mesh, set);
+            if (shape.radiance) add_mesh_emitter(*mesh, frame, set);
         } else if (std::holds_alternative<Sphere>(shape.geometry)) {
             set.add(feature_shape_sphere);
             set.add_if(shape.radiance.has_value(), feature_emitter_area_sphere);
@@ -152,11 +152,11 @@ void add_filter(const Film& film, FeatureSet& set) {
 
 } // namespace
 
-std::uint64_t scene_features(const Scene& scene) {
+std::uint64_t scene_features(const Scene& scene, const SceneFrame& frame) {
     FeatureSet set;
     const Integrator& integrator = scene.integrator;
     add_materials(scene, set);
-    add_shapes(scene, reads_uv(scene, set), set);
+    add_shapes(scene, frame, reads_uv(scene, set), set);
     add_traversal(scene, set);
     for (const Emitter& e : scene.emitters)
         std::visit([&](const auto& x) { add_emitter(x, set); }, e);

@@ -1,7 +1,7 @@
 // The one place that decides which features a scene's kernels have.
 #pragma once
 
-#include "host/scene/scene.h"
+#include "host/render/scene_frame.h"
 
 #include <cstdint>
 #include <string>
@@ -11,7 +11,7 @@ namespace parhelion {
 
 /// Mask over enum Feature (kernels/shared/features.h). Depends on kinds only, never on values such
 /// as positions or colours.
-std::uint64_t scene_features(const Scene& scene);
+std::uint64_t scene_features(const Scene& scene, const SceneFrame& frame);
 
 /// What more than one light adds to the features of a scene.
 std::uint64_t light_tree_features(std::uint64_t scene_features);

@@ -19,9 +19,10 @@
     X(area_triangle) X(area_parallelogram) X(area_sphere) X(area_disk) X(point) X(spot)              \
     X(directional) X(constant)
 
-// First-hit values beside the radiance: name, number of channels, suffixes of the channel names.
+// First-hit values beside the radiance: name, number of channels, suffixes of the channel names. A channel without suffix is
+// for the host: of a position, 1, to know how much of a pixel has one.
 #define AOVS(X)                                                                                    \
-    X(albedo, 3, "RGB") X(sh_normal, 3, "XYZ") X(geo_normal, 3, "XYZ") X(position, 3, "XYZ")       \
+    X(albedo, 3, "RGB") X(sh_normal, 3, "XYZ") X(geo_normal, 3, "XYZ") X(position, 4, "XYZ")       \
     X(uv, 2, "UV") X(depth, 1, "T") X(shape_index, 1, "I") X(prim_index, 1, "I")
 
 // What the film itself tells of a pixel's samples: name, number of channels, suffixes.

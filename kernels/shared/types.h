@@ -65,7 +65,7 @@ typedef struct { MATERIAL_FIELDS(FIELD_DECLARE) } MaterialRecord;
 LAYOUT(MaterialRecord, 64);
 
 // a, b, c and extra as the emitter's own header says; pmf: probability of picking this row, its share of the power where
-// there is a light tree; area (m^2) of what is chosen by area.
+// there is a light tree; area of what is chosen by area. Lengths are in the device's units (host/render/scene_frame.h).
 #define LIGHT_FIELDS(X)                                                                            \
     X(int, kind)                                                                                   \
     X(float, ax) X(float, ay) X(float, az)                                                         \
@@ -82,7 +82,7 @@ LAYOUT(LightRecord, 64);
     X(float, cx) X(float, cy) X(float, cz) X(float, radius)                                        \
     X(float, ax) X(float, ay) X(float, az)                                                         \
     X(float, spread)                          /* -cosine of the angle from the axis that they shine within; 2: anywhere */ \
-    X(float, intensity)                       /* largest, W/sr, of all lights together */          \
+    X(float, intensity)                       /* largest, radiance x area, of all lights together */ \
     X(int, fixed)                             /* 1: `intensity` is the importance, for any point */ \
     X(int, child)                             /* the left of its children; a leaf: ~light row */   \
     X(int, parent)                            /* -1: the root */                                    \

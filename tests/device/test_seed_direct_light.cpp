@@ -121,7 +121,7 @@ TEST_CASE(
     RenderDevice device(choose_device(""));
     RenderResult result = render(scene, device, {}, quiet);
     DeviceScene flat = make_device_scene(scene);
-    CameraRecord record = camera_record(scene.camera, 20, 20);
+    CameraRecord record = camera_record(scene.camera, 20, 20, flat.frame);
     f32::Camera camera{};
 #define COPY_FIELD(type, name) camera.name = record.name;
     CAMERA_FIELDS(COPY_FIELD)

@@ -59,7 +59,7 @@ Scene edge_scene(const Setting& setting) {
     scene.film.filter_method = setting.method;
     scene.film.sample_border = setting.sample_border;
     scene.sampler.samples_per_pixel = 400;
-    CameraRecord c = camera_record(scene.camera, width, height);
+    CameraRecord c = camera_record(scene.camera, width, height, {});
     glm::dvec3 origin(c.ox, c.oy, c.oz), corner(c.dx, c.dy, c.dz), step_x(c.ux, c.uy, c.uz),
         step_y(c.vx, c.vy, c.vz);
     constexpr double margin = 20, distance = 3; // pixels beyond the film, metres

@@ -25,6 +25,12 @@ f32::Light lanes_of(const LightRecord& r) {
     return n;
 }
 
+/// A point of the scene as the device has it.
+f32::vec3 in_frame(const DeviceScene& scene, f64::vec3 p) {
+    glm::vec3 q(scene.frame.point({p.x, p.y, p.z}));
+    return {q.x, q.y, q.z};
+}
+
 /// Probability of each light for a surface at p with normal n (`hint`: of any orientation), by
 /// walking the whole tree.
 std::vector<double> probabilities(const DeviceScene& scene, f32::vec3 p, f32::vec3 n, bool hint) {
@@ -94,7 +100,7 @@ TEST_CASE(
     for (int count : {2, 8, 100, 1000}) {
         DeviceScene scene = make_device_scene(many_lights_scene(count, true));
         for (int repeat = 0; repeat < 100; repeat++) {
-            f32::vec3 p = random.point<F32>(9), n = random.direction<F32>();
+            f32::vec3 p = in_frame(scene, random.point<F64>(9)), n = random.direction<F32>();
             std::vector<double> pmf = probabilities(scene, p, n, false),
                                 hint = probabilities(scene, p, n, true);
             // The bounds of a group may promise light that neither of its halves has.
@@ -112,14 +118,14 @@ TEST_CASE(
 
 TEST_CASE("Light tree: by power every light has its share of it, everywhere") {
     DeviceScene scene = make_device_scene(many_lights_scene(100, true), LightChoice::power);
-    std::vector<double> pmf = probabilities(scene, {1, 2, 3}, {0, 1, 0}, false);
+    std::vector<double> pmf = probabilities(scene, in_frame(scene, {1, 2, 3}), {0, 1, 0}, false);
     for (std::size_t row = 0; row < pmf.size(); row++)
         CHECK(pmf[row] == Approx(scene.lights[row].pmf).epsilon(1e-4));
 }
 
 TEST_CASE("Light tree: a sky keeps its share of the power whatever is near") {
     DeviceScene scene = make_device_scene(many_lights_scene(100, true));
-    std::vector<double> pmf = probabilities(scene, {1, 0.5f, 3}, {0, 1, 0}, false);
+    std::vector<double> pmf = probabilities(scene, in_frame(scene, {1, 0.5, 3}), {0, 1, 0}, false);
     double share = scene.lights[std::size_t(scene.constant_light)].pmf;
     CHECK(pmf[std::size_t(scene.constant_light)] == Approx(share).epsilon(1e-5));
 }

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 using namespace parhelion;
 
@@ -51,7 +52,8 @@ TEST_CASE("Parallelograms: a quad is one light that both its triangles name, of 
     int row = static_cast<int>(quad - flat.lights.begin());
     CHECK(std::count_if(flat.primitives.begin(), flat.primitives.end(),
                         [&](const PrimitiveRecord& p) { return p.light == row; }) == 2);
-    CHECK((quad->area == Approx(1) && quad->extra == Approx(1))); // 1 x 1
+    double area = std::pow(flat.frame.scale, 2); // 1 x 1
+    CHECK((quad->area == Approx(area) && quad->extra == Approx(1 / area)));
     CHECK((flat.features & feature_bit(feature_emitter_area_parallelogram)) != 0);
     CHECK((flat.features & feature_bit(feature_emitter_area_triangle)) != 0);
 }
@@ -60,12 +62,12 @@ TEST_CASE("Parallelograms: an emitting mesh keeps what does not pair up") {
     Mesh mesh = test::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     mesh.positions.push_back({0.5, 2, 0});
     mesh.triangles.push_back({3, 2, 4});
-    CHECK((starts_parallelogram(mesh) == std::vector{true, false, false}));
+    CHECK((starts_parallelogram(mesh, {}) == std::vector{true, false, false}));
     mesh.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
-    CHECK(starts_parallelogram(mesh)[0]);
+    CHECK(starts_parallelogram(mesh, {})[0]);
     for (glm::dvec3& n : mesh.normals)
         n = -n; // the light shines the other way, from both
-    CHECK(starts_parallelogram(mesh)[0]);
+    CHECK(starts_parallelogram(mesh, {})[0]);
     mesh.normals[1] = {0, 0, 9}; // only the first triangle's normals still agree with its winding
-    CHECK_FALSE(starts_parallelogram(mesh)[0]);
+    CHECK_FALSE(starts_parallelogram(mesh, {})[0]);
 }
