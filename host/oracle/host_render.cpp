@@ -89,7 +89,7 @@ std::array<std::uint64_t, statistic_count> sum_statistics(const WaveMemory<Real>
 template<class Real>
 void render_flat(const Scene& scene, const DeviceScene& flat, const RenderOptions& options,
                  Progress& progress, RenderResult& result) {
-    AovPlan aovs = plan_aovs(scene.integrator);
+    AovPlan aovs = plan_aovs(scene);
     int film_channels =
         result_field_count + aovs.channels + (scene.integrator.second_moment ? 3 : 0);
     WorkSplit split = options.split;

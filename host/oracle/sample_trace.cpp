@@ -144,7 +144,7 @@ bool trace_vertex(OnePath& path, const DeviceScene& scene, bool last, TraceVerte
 } // namespace
 
 SampleTrace trace_sample(const Scene& scene, const DeviceScene& flat, int x, int y, int sample) {
-    AovPlan aovs = plan_aovs(scene.integrator);
+    AovPlan aovs = plan_aovs(scene);
     WorkSizes sizes = sizes_of_one(scene, result_field_count + aovs.channels, x, y);
     WaveMemory<float> memory(sizes);
     // Streams store whether a shadow ray was blocked; their answers are those of packets.

@@ -21,7 +21,7 @@ namespace parhelion::f32 {
 namespace parhelion::stress {
 
 // Each is a program of its own: kernels/stress/<group>.cl.
-#define PROBE_GROUPS(X) X(maths) X(surface) X(bsdf) X(emitter)
+#define PROBE_GROUPS(X) X(maths) X(surface) X(bsdf) X(emitter) X(film)
 
 struct Probe {
     const char* name;

@@ -86,7 +86,8 @@ TracedRay shadow_ray(const f32::SurfaceInteraction& s, int primitive, const f32:
                                      f32::neg3(e.wi));
     f32::vec3 d = f32::sub3(q, o);
     TracedRay ray{{o.x, o.y, o.z}, {d.x, d.y, d.z}};
-    ray.t_max = 1 - float(32 * HALF_ULP / (1 - 32 * HALF_ULP));
+    constexpr double half_ulp = 0x1p-24;
+    ray.t_max = 1 - static_cast<float>(32 * half_ulp / (1 - 32 * half_ulp)); // GAMMA(32)
     ray.excluded = primitive;
     return ray;
 }

@@ -74,7 +74,7 @@ FN void tile_splat_distances(TileSpread* tile, int reach, int part, const Real* 
     int side = TILE_SIDE(reach);
     for (int y = 2 * reach; y >= 0; y--)
         for (int x = 2 * reach; x >= 0; x--) {
-            Real centre = tile_load((const float*)tile->centre, side, x, y, part);
+            Real centre = tile_load((const Scalar*)tile->centre, side, x, y, part);
             Real first = R(0.), second = R(0.);
             for (int n = 0; n < count; n++) {
                 Real d = values[n] - centre;
@@ -82,8 +82,8 @@ FN void tile_splat_distances(TileSpread* tile, int reach, int part, const Real* 
                 first = first + weighted;
                 second = fmaR(weighted, d, second);
             }
-            tile_add((float*)tile->first, side, x, y, part, first);
-            tile_add((float*)tile->second, side, x, y, part, second);
+            tile_add((Scalar*)tile->first, side, x, y, part, first);
+            tile_add((Scalar*)tile->second, side, x, y, part, second);
         }
 }
 
@@ -102,13 +102,13 @@ FN void splat_spreads(BlockResults block, const SampleGroup* groups, global cons
     for (int part = 0; part < BLOCK_PARTS; part++) {
         group_weights(&squares[part], block, &groups[part], filter, reach);
         square_weights(&squares[part], count, reach);
-        tile_splat((float*)tile.weight, reach, part, values, squares[part].of, count);
+        tile_splat((Scalar*)tile.weight, reach, part, values, squares[part].of, count);
     }
     for (int color = 0; color < 3; color++) {
         for (int k = 0; k < cells; k++)
             tile.centre[k] = tile.first[k] = tile.second[k] = R(0.);
         for (int part = 0; part < BLOCK_PARTS; part++)
-            tile_splat((float*)tile.centre, reach, part, groups[part].radiance[color],
+            tile_splat((Scalar*)tile.centre, reach, part, groups[part].radiance[color],
                        squares[part].of, count);
         for (int k = 0; k < cells; k++)
             tile.centre[k] = group_centre(tile.centre[k], tile.weight[k]);

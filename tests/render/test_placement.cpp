@@ -3,7 +3,7 @@
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/placed_scene.h"
 #include "tests/support/render_scene.h"
-#include "tests/support/statistics.h"
+#include "host/stress/statistics.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -13,6 +13,7 @@
 #include <bit>
 
 using namespace parhelion;
+using namespace parhelion::stress;
 using namespace parhelion::test;
 
 namespace {

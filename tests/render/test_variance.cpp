@@ -2,7 +2,7 @@
 // many images.
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/render_scene.h"
-#include "tests/support/statistics.h"
+#include "host/stress/statistics.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include <cmath>
 
 using namespace parhelion;
+using namespace parhelion::stress;
 using namespace parhelion::test;
 
 namespace {

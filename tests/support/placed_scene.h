@@ -112,7 +112,7 @@ bool same_bytes(const A& a, const B& b) {
 }
 
 inline RenderParams params_of(const Scene& scene, const DeviceScene& device) {
-    AovPlan aovs = plan_aovs(scene.integrator);
+    AovPlan aovs = plan_aovs(scene);
     WorkSplit split;
     split.streams = 1;
     WorkSizes sizes =
