@@ -1,11 +1,11 @@
 // The film's sums and spreads: against long double, over many samples.
-#include "tests/support/film_drift.h"
+#include "host/stress/film_drift.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::stress;
 
 TEST_CASE("Film: mean and variance of 1e7 samples do not drift") {
     for (const FilmFeed& feed : film_feeds) {

@@ -2,13 +2,13 @@
 // test suite with 1e6 to 1e7 of them, for a stress run with 1e9.
 #pragma once
 
-#include "tests/support/shared_maths.h"
+#include "host/stress/measure.h"
 
 #include <algorithm>
 #include <functional>
 #include <vector>
 
-namespace parhelion::test {
+namespace parhelion::stress {
 
 /// A sequence of samples: the i-th, and a random number of [0, 1) for it. Most are near `near`.
 struct FilmFeed {
@@ -74,4 +74,4 @@ inline FilmDrift film_drift(const FilmFeed& feed, std::int64_t count, std::uint6
             relative(value(spread.spread) / value(weight) - variance, variance)};
 }
 
-} // namespace parhelion::test
+} // namespace parhelion::stress
