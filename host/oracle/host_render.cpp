@@ -90,12 +90,10 @@ template<class Real>
 void render_flat(const Scene& scene, const DeviceScene& flat, const RenderOptions& options,
                  Progress& progress, RenderResult& result) {
     AovPlan aovs = plan_aovs(scene);
-    int film_channels =
-        result_field_count + aovs.channels + (scene.integrator.second_moment ? 3 : 0);
     WorkSplit split = options.split;
     split.streams = 1;
     WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, 1,
-                                 film_channels, split);
+                                 film_channels(scene.integrator, aovs), split);
     WaveMemory<Real> memory(sizes);
     HostLaunch<Real> launch{scene_arrays(flat), render_params(scene, flat, sizes, aovs),
                             render_features(flat, options), WaveParams{}, memory};

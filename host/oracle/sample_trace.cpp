@@ -145,7 +145,7 @@ bool trace_vertex(OnePath& path, const DeviceScene& scene, bool last, TraceVerte
 
 SampleTrace trace_sample(const Scene& scene, const DeviceScene& flat, int x, int y, int sample) {
     AovPlan aovs = plan_aovs(scene);
-    WorkSizes sizes = sizes_of_one(scene, result_field_count + aovs.channels, x, y);
+    WorkSizes sizes = sizes_of_one(scene, film_channels(scene.integrator, aovs), x, y);
     WaveMemory<float> memory(sizes);
     // Streams store whether a shadow ray was blocked; their answers are those of packets.
     HostLaunch<float> launch{scene_arrays(flat), render_params(scene, flat, sizes, aovs),

@@ -147,6 +147,11 @@ AovPlan plan_aovs(const Scene& scene) {
     return plan;
 }
 
+int film_channels(const Integrator& integrator, const AovPlan& aovs) {
+    return result_field_count + aovs.channels + (integrator.second_moment ? 3 : 0) +
+           (aovs.film_layers.empty() ? 0 : static_cast<int>(spread_channel_count));
+}
+
 Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene,
                  const AovPlan& aovs, const SceneFrame& frame) {
     const Film& crop = scene.film;

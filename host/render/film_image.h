@@ -26,9 +26,12 @@ struct AovPlan {
 /// Whether an AOV is what the film itself tells of a pixel's samples (FILM_AOVS).
 bool is_film_aov(const AovRequest& request);
 
-/// Lays out the AOVs of a scene's integrator. Throws InputError for a kind that there is not, naming
-/// those there are, and for a variance of one sample.
+/// Lays out the AOVs of a scene's integrator. Throws InputError for a kind that there is not,
+/// naming those there are, and for a variance of one sample.
 AovPlan plan_aovs(const Scene& scene);
+
+/// Of an image with these layers: results, AOVs, second moments, spreads.
+int film_channels(const Integrator& integrator, const AovPlan& aovs);
 
 /// Divides the film's sums by the filter weights, turns what the device has in the units of `frame`
 /// into the scene's own, and names the channels. `film` as the accumulate kernel leaves it.

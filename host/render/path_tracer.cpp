@@ -129,13 +129,10 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     progress.finish(result.report.all_cached() ? "cached" : "compiled");
 
     start = Clock::now();
-    int film_channels = result_field_count + aovs.channels +
-                        (scene.integrator.second_moment ? 3 : 0) +
-                        (aovs.film_layers.empty() ? 0 : static_cast<int>(spread_channel_count));
     WorkSplit split = options.split;
     split.streams = stream_count(split, device.device);
     WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, lanes,
-                                 film_channels, split);
+                                 film_channels(scene.integrator, aovs), split);
     RenderParams params = render_params(scene, flat, sizes, aovs);
     pipeline.upload(flat);
     pipeline.allocate(sizes, params);

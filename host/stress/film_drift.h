@@ -21,8 +21,8 @@ struct FilmFeed {
 // clang-format off
 inline const FilmFeed film_feeds[] = {
     {"1000 + U", 1000.5, [](std::int64_t, float u) { return 1000 + u; }},
-    {"constant 1000.1", 1000, [](std::int64_t, float) { return 1000.1f; }},
-    {"constant 1/3", 0, [](std::int64_t, float) { return 1 / 3.f; }},
+    {"constant 1000.1", 1000.1f, [](std::int64_t, float) { return 1000.1f; }},
+    {"constant 1/3", 1 / 3.f, [](std::int64_t, float) { return 1 / 3.f; }},
     {"1000 and the next float", 1000, [](std::int64_t, float u) { return u < .25f ? 1000.f : std::nextafter(1000.f, 2e3f); }},
     {"1e8, then U", .5, [](std::int64_t i, float u) { return i ? u : 1e8f; }},
     {"1e6 once in 1e6, else 1e-6 U", 0, [](std::int64_t i, float u) { return i % 1000003 == 17 ? 1e6f : 1e-6f * u; }},

@@ -17,7 +17,8 @@ namespace parhelion::stress {
     X(nested_spheres, "Rays", "Of two spheres 4e-6 apart the nearer one shows") \
     X(accumulation,   "Sums", "A pixel's mean and variance do not drift with its samples") \
     X(density,        "Statistics", "Samples of every material follow its density (chi-square, Sidak)") \
-    X(furnace,        "Statistics", "No material returns more than it receives")
+    X(furnace,        "Statistics", "No material returns more than it receives") \
+    X(closed_forms,   "Images", "Scenes of known answers over many seeds: no bias, and errors as large as they say")
 // clang-format on
 
 #define DECLARE_ROW(name, chapter, title) Checks row_##name(StressRun& run);

@@ -55,6 +55,22 @@ inline double student_two_sided(double t, int freedom) {
     return 1 - inside;
 }
 
+/// Probability that numbers uniform in [0, 1] are as far from evenly spread as these (Kolmogorov
+/// and Smirnov; the tail by Stephens 1970).
+inline double kolmogorov_smirnov_p(std::vector<double> values) {
+    if (values.empty()) return 1;
+    std::sort(values.begin(), values.end());
+    auto n = double(values.size());
+    double distance = 0;
+    for (std::size_t i = 0; i < values.size(); i++)
+        distance = std::max({distance, double(i + 1) / n - values[i], values[i] - double(i) / n});
+    double x = (std::sqrt(n) + 0.12 + 0.11 / std::sqrt(n)) * distance, sum = 0;
+    if (x < 0.2) return 1; // where the series converges slowly, to 1
+    for (int k = 1; k < 100; k++)
+        sum += (k % 2 ? 2 : -2) * std::exp(-2 * double(k) * double(k) * x * x);
+    return std::clamp(sum, 0., 1.);
+}
+
 /// The level each of n independent tests must keep so that all together keep `family` (Sidak 1967).
 inline double sidak_level(double family, std::size_t n) {
     return -std::expm1(std::log1p(-family) / double(n));

@@ -1,6 +1,6 @@
 // Every scene of scenes/closed_form against its truth: error against the right answer, not against
 // another renderer.
-#include "tests/render/closed_form_truth.h"
+#include "host/stress/closed_form_truth.h"
 #include "tests/support/render_scene.h"
 #include "host/stress/statistics.h"
 

@@ -59,3 +59,22 @@ TEST_CASE("Statistics: direction bins find a density that is off by five percent
     CHECK(cosine_p_value(1) > 0.01);
     CHECK(cosine_p_value(1.05) < 1e-4);
 }
+
+TEST_CASE("Statistics: Kolmogorov and Smirnov's test accepts even numbers and refuses uneven ones",
+          "[support]") {
+    Random random(6);
+    std::vector<double> even, uneven, p_values;
+    for (int n = 0; n < 1000; n++) {
+        even.push_back(random.unit());
+        uneven.push_back(std::pow(random.unit(), 1.2));
+    }
+    CHECK(kolmogorov_smirnov_p(even) > 0.01);
+    CHECK(kolmogorov_smirnov_p(uneven) < 1e-4);
+    for (int n = 0; n < 400; n++) {
+        std::vector<double> values(50);
+        for (double& v : values)
+            v = random.unit();
+        p_values.push_back(kolmogorov_smirnov_p(values));
+    }
+    CHECK(kolmogorov_smirnov_p(p_values) > 0.01); // its own p-values are even too
+}

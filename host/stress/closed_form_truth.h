@@ -5,7 +5,7 @@
 #pragma once
 
 #include "host/scene/scene.h"
-#include "tests/render/closed_form_formulas.h"
+#include "host/stress/closed_form_formulas.h"
 
 #include <algorithm>
 #include <functional>
