@@ -1,5 +1,6 @@
 // Shade: what a path does at the surface (or the sky) it reached.
 #include "device/device.h"
+#include "device/energy_table.h"
 #include "device/lanes_memory.h"
 #include "device/light_table.h"
 #include "device/path_state.h"
@@ -172,6 +173,10 @@ kernel void shade(KERNEL_PARAMETERS) {
             side = sel(turn, R(-1.), R(1.));
             wo.z = wo.z * side;
         }
+
+        if (HAS(energy_compensation))
+            v.throughput =
+                mul3(v.throughput, compensate_energy(energy_tables, material, wo, need_material));
 
         Int excluded = sel(primitive_kind(primitive) == geometry_sphere, (Int)(-1), v.primitive);
         vec3 clearance = surface_clearance(surface.error, surface.ng);

@@ -21,7 +21,7 @@ namespace {
 struct InfoCommand {
     std::string scene_file;
     std::vector<std::string> definitions;
-    bool allow_outside = false, json = false;
+    bool energy_compensation = true, allow_outside = false, json = false;
 };
 
 #define KIND_NAME_MATERIAL(name, sides) #name,
@@ -99,6 +99,7 @@ void print_text(const nlohmann::json& info) {
 int run_info(const InfoCommand& command) {
     Scene scene = load_scene(command.scene_file,
                              {parse_definitions(command.definitions), command.allow_outside});
+    if (!command.energy_compensation) leave_out_energy_compensation(scene);
     nlohmann::json info = describe(scene, make_device_scene(scene));
     if (command.json)
         fmt::print("{}\n", info.dump(2));
@@ -119,6 +120,8 @@ Subcommand info_subcommand() {
         .options = {{"scene", &c->scene_file, "Scene file (Mitsuba 3 XML)", {.required = true}},
                     {"-D,--define", &c->definitions,
                      "name=value for the scene's $name (repeat for more)"},
+                    {"!--no-energy-compensation", &c->energy_compensation,
+                     energy_compensation_help},
                     {"--allow-outside", &c->allow_outside,
                      "Let the scene name files outside its own folder"},
                     {"--json", &c->json, "One JSON object"}},

@@ -89,6 +89,15 @@ int at_least(std::string_view option, int value, int least) {
 
 } // namespace
 
+void leave_out_energy_compensation(Scene& scene) {
+    for (Material& material : scene.materials) {
+        if (auto* metal = std::get_if<RoughConductorBsdf>(&material.bsdf))
+            metal->energy_compensation = false;
+        if (auto* glass = std::get_if<RoughDielectricBsdf>(&material.bsdf))
+            glass->energy_compensation = false;
+    }
+}
+
 void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (command.size) set_size(*command.size, scene.film);
     if (command.crop) set_crop(*command.crop, scene.film);
@@ -106,6 +115,7 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (command.rr_depth) scene.integrator.rr_depth = at_least("--rr-depth", *command.rr_depth, 1);
     if (command.seed) scene.sampler.seed = *command.seed;
     if (!command.next_event) scene.integrator.emitter_samples = false;
+    if (!command.energy_compensation) leave_out_energy_compensation(scene);
     for (const std::string& name : command.aovs)
         scene.integrator.aovs.push_back(aov_request(name));
 }

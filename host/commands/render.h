@@ -24,7 +24,7 @@ struct RenderCommand {
     std::optional<int> sample;        ///< and its number
     bool trace = false;
     int threads = 0; ///< 0: all
-    bool next_event = true;
+    bool next_event = true, energy_compensation = true;
     bool force = false, quiet = false, allow_outside = false;
     RenderOptions options;
 };
@@ -47,6 +47,13 @@ std::array<int, 2> parse_pixel(const std::string& text, const Film& film);
 /// Tells one sample of the scene vertex by vertex, on standard output or into a JSON file; nothing
 /// is rendered. Throws InputError.
 int run_trace(const RenderCommand& command);
+
+/// Rough lobes of single scattering alone, as Mitsuba and others have them.
+void leave_out_energy_compensation(Scene& scene);
+
+/// What --no-energy-compensation does, for the options of several subcommands.
+inline constexpr const char* energy_compensation_help =
+    "Rough metal and glass lose what they scatter more than once, as in Mitsuba 3";
 
 Subcommand render_subcommand();
 

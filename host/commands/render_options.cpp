@@ -75,6 +75,7 @@ std::vector<Option> kernel_options(RenderCommand& c) {
          "Longest path in edges: 1 emitters only, 2 direct light, -1 no limit"},
         {"--rr-depth", &c.rr_depth, "Russian roulette from this many vertices on"},
         {"!--no-next-event", &c.next_event, "Do not sample emitters"},
+        {"!--no-energy-compensation", &c.energy_compensation, energy_compensation_help},
         {"--sampler", &c.sampler,
          "sobol (a pattern over the samples of a pixel, the default) or independent"},
         {"--filter-by", &c.filter_method,

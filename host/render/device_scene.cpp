@@ -2,6 +2,7 @@
 // builder.
 #include "host/render/device_scene.h"
 
+#include "host/render/energy_table.h"
 #include "host/render/filter_table.h"
 #include "host/render/light_table.h"
 #include "host/render/material_records.h"
@@ -150,6 +151,7 @@ static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
                    scene.shapes[i].geometry);
     for (const Material& material : scene.materials)
         out.materials.push_back(material_record(material.bsdf));
+    if (out.features & feature_bit(feature_energy_compensation)) add_energy_tables(scene, out);
     add_light_table(scene, choice, out);
     if (!out.light_tree.nodes.empty()) out.features |= light_tree_features(out.features);
     if (out.features & feature_bit(feature_filter_splatting))
@@ -174,8 +176,8 @@ DeviceScene make_device_scene(const Scene& scene, LightChoice choice) {
 std::size_t DeviceScene::bytes() const {
     auto size = [](const auto& v) { return v.size() * sizeof(v[0]); };
     return size(primitives) + size(vertices) + size(materials) + size(lights) +
-           size(light_tree.nodes) + size(light_tree.leaves) + size(filter_table) +
-           size(filter_values) + size(bvh.nodes) + size(bvh.leaves);
+           size(light_tree.nodes) + size(light_tree.leaves) + size(energy_tables) +
+           size(filter_table) + size(filter_values) + size(bvh.nodes) + size(bvh.leaves);
 }
 
 } // namespace parhelion

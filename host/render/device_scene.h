@@ -32,7 +32,8 @@ struct DeviceScene {
         vertices; ///< parallel to primitives; empty where no mesh has attributes that are read
     std::vector<MaterialRecord> materials;
     std::vector<LightRecord> lights;
-    LightTree light_tree; ///< empty where there is only one light
+    LightTree light_tree;             ///< empty where there is only one light
+    std::vector<float> energy_tables; ///< one behind the other; materials know their first
     std::vector<FilterBin> filter_table;
     std::vector<float> filter_values;
     Bvh bvh;

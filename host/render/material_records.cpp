@@ -1,7 +1,8 @@
 // A material as the device reads it; one function a kind.
 #include "host/render/material_records.h"
 
-#include "kernels/shared/features.h"
+#include "host/render/gauss_legendre.h"
+#include "host/shared_maths.h"
 
 namespace parhelion {
 namespace {
@@ -25,6 +26,12 @@ void set_conductor(MaterialRecord& m, const Rgb& eta, const Rgb& k) {
     m.er = static_cast<float>(eta.r), m.eg = static_cast<float>(eta.g),
     m.eb = static_cast<float>(eta.b);
     m.kr = static_cast<float>(k.r), m.kg = static_cast<float>(k.g), m.kb = static_cast<float>(k.b);
+}
+
+/// Fresnel reflectance of light from everywhere, weighted by the cosine.
+double average_reflectance(double eta, double k) {
+    static const GaussLegendre<32> rule;
+    return rule.integrate([&](double c) { return 2.0 * c * f64::fresnel_conductor(c, eta, k); });
 }
 
 /// eta^2 - 1 from both sides in two floats each, so that the device can tell on which side of the
@@ -77,6 +84,9 @@ MaterialRecord pack(const RoughConductorBsdf& b) {
     MaterialRecord m = record(material_roughconductor);
     set_reflectance(m, b.specular_reflectance);
     set_conductor(m, b.eta, b.k);
+    Rgb average(average_reflectance(b.eta.r, b.k.r), average_reflectance(b.eta.g, b.k.g),
+                average_reflectance(b.eta.b, b.k.b));
+    set_transmittance(m, b.specular_reflectance * average);
     set_roughness(m, b.distribution, b.alpha_u, b.alpha_v);
     return m;
 }

@@ -14,14 +14,16 @@ struct SceneArrays {
     const std::vector<LightRecord>& lights;
     const std::vector<LightNodeRecord>& light_nodes;
     const std::vector<int>& light_leaves;
+    const std::vector<float>& energy_tables;
     const std::vector<FilterBin>& filter_table;
     const std::vector<float>& filter_values;
 };
 
 inline SceneArrays scene_arrays(const DeviceScene& scene) {
-    return {scene.bvh.nodes,    scene.bvh.leaves,   scene.primitives,       scene.vertices,
-            scene.materials,    scene.lights,       scene.light_tree.nodes, scene.light_tree.leaves,
-            scene.filter_table, scene.filter_values};
+    return {scene.bvh.nodes,        scene.bvh.leaves,        scene.primitives,
+            scene.vertices,         scene.materials,         scene.lights,
+            scene.light_tree.nodes, scene.light_tree.leaves, scene.energy_tables,
+            scene.filter_table,     scene.filter_values};
 }
 
 } // namespace parhelion

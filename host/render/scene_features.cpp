@@ -3,6 +3,7 @@
 
 #include "host/error.h"
 #include "host/render/device_scene.h"
+#include "host/render/energy_table.h"
 #include "host/render/film_image.h"
 #include "host/render/filter_table.h"
 #include "host/render/material_records.h"
@@ -145,6 +146,14 @@ void add_transport(const Integrator& integrator, FeatureSet& set) {
     set.add_if(integrator.hide_emitters, feature_hide_emitters);
 }
 
+/// After what scatters at all is known.
+void add_energy_compensation(const Scene& scene, FeatureSet& set) {
+    auto wants = [](const Material& m) { return wants_energy_compensation(m.bsdf); };
+    bool lit = set.mask & (feature_bit(feature_next_event) | feature_bit(feature_scattering));
+    set.add_if(lit && std::any_of(scene.materials.begin(), scene.materials.end(), wants),
+               feature_energy_compensation);
+}
+
 void add_filter(const Film& film, FeatureSet& set) {
     if (film.filter.kind == FilterKind::box) return;
     set.add(filter_reach(film) > 0 ? feature_filter_splatting : feature_filter_sampling);
@@ -170,6 +179,7 @@ std::uint64_t scene_features(const Scene& scene, const SceneFrame& frame) {
         set.add(is_film_aov(aov) ? feature_variance : feature_aovs);
     if (integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct)
         add_transport(integrator, set);
+    add_energy_compensation(scene, set);
     return set.mask;
 }
 

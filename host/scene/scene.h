@@ -61,6 +61,7 @@ struct RoughConductorBsdf {
     Rgb eta{0.0};
     Rgb k{1.0};
     Rgb specular_reflectance{1.0};
+    bool energy_compensation = true; ///< light scattered more than once is added to the lobe
 };
 
 struct RoughDielectricBsdf {
@@ -69,6 +70,7 @@ struct RoughDielectricBsdf {
     double eta = 1.5046 / 1.000277;
     Rgb specular_reflectance{1.0};
     Rgb specular_transmittance{1.0};
+    bool energy_compensation = true;
 };
 
 /// Passes every ray straight on.

@@ -142,8 +142,8 @@ void Traversal::run(cl::Kernel kernel, const Sizes& s, const Buffer<float>& path
     const Buffer<BvhNode>& bvh_nodes = nodes_;
     const Buffer<BvhLine>& bvh_leaves = leaves_;
     // Not read by these kernels.
-    Buffer<int> primitives, vertices, materials, lights, light_nodes, light_leaves, filter_table,
-        filter_values, film;
+    Buffer<int> primitives, vertices, materials, lights, light_nodes, light_leaves, energy_tables,
+        filter_table, filter_values, film;
     RenderParams params{};
     params.state_stride = params.result_stride = static_cast<int>(s.stride());
     params.segment_size = params.segment_stride = segment;

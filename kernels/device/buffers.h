@@ -15,6 +15,7 @@
     X(PrimitiveRecord, primitives) X(VertexRecord, vertices)                                       \
     X(MaterialRecord, materials) X(LightRecord, lights)                                            \
     X(LightNodeRecord, light_nodes) X(int, light_leaves) /* the leaf of each light */              \
+    X(float, energy_tables)                                                                        \
     X(FilterBin, filter_table) X(float, filter_values) /* at n / FILTER_INTERVALS pixels */
 
 // element type, name: what a render works on

@@ -35,6 +35,7 @@
     X(vertex_uvs)         /* some mesh has texture coordinates, and something reads them */         \
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
     X(ggx) X(beckmann) X(anisotropy)                                                               \
+    X(energy_compensation) /* some rough lobe makes up for what it scatters more than once */      \
     X(sobol)              /* samples of a pixel in a pattern; without: independent */               \
     X(thin_lens)                                                                                   \
     X(filter_splatting)   /* a sample counts for all pixels that the filter reaches */              \

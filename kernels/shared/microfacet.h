@@ -87,7 +87,7 @@ FN vec3 ggx_sample_visible(vec3 wo, Real alpha_u, Real alpha_v, vec2 u) {
 
 /// Asked only where HAS(beckmann). (A mask of lanes must not be combined with a plain int: 1 is no
 /// mask.)
-FN Mask is_beckmann(Material m) { return m.distribution != 0; }
+FN Mask is_beckmann(Material m) { return (m.distribution & 1) != 0; }
 
 /// G1(wo) D(h) / wo.z of the material's distribution.
 FN Real microfacet_visible_d(Material m, vec3 wo, vec3 h) {

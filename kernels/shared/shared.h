@@ -22,6 +22,7 @@
 
 #include "shared/bsdf_types.h"
 #include "shared/emitter_types.h"
+#include "shared/energy_compensation.h"
 #include "shared/light_importance.h"
 
 #include "shared/bsdf_conductor.h"

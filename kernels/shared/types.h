@@ -53,6 +53,7 @@ LAYOUT(VertexRecord, 64);
 // -------------------------------------------------------------------------------------- materials and lights
 // Dielectrics keep their index in (er, eg, eb, kr, kg, kb): eta, 1/eta, and the high and low parts of eta^2 - 1 seen
 // from the outside and from the inside (the low parts decide on which side of the critical angle a direction lies).
+// Rough conductors keep their reflectance, averaged over the cosine, in place of a transmittance.
 #define MATERIAL_FIELDS(X)                                                                         \
     X(int, kind)                                                                                   \
     X(float, r) X(float, g) X(float, b)       /* (specular) reflectance */                         \
@@ -60,9 +61,14 @@ LAYOUT(VertexRecord, 64);
     X(float, er) X(float, eg) X(float, eb)    /* conductor eta */                                  \
     X(float, kr) X(float, kg) X(float, kb)    /* conductor k */                                    \
     X(float, alpha_u) X(float, alpha_v)                                                            \
-    X(int, distribution)                      /* 0 GGX, 1 Beckmann */
+    X(int, distribution)                      /* bit 0: 0 GGX, 1 Beckmann; above: 1 + its energy table, 0: none */
 typedef struct { MATERIAL_FIELDS(FIELD_DECLARE) } MaterialRecord;
 LAYOUT(MaterialRecord, 64);
+
+// A table of the share of light that single scattering sends on: a row of cosines for each azimuth.
+#define ENERGY_COSINES 129
+#define ENERGY_AZIMUTHS 17
+#define ENERGY_TABLE_SIZE (ENERGY_COSINES * (HAS(anisotropy) ? ENERGY_AZIMUTHS : 1))
 
 // a, b, c and extra as the emitter's own header says; pmf: probability of picking this row, its share of the power where
 // there is a light tree; area of what is chosen by area. Lengths are in the device's units (host/render/scene_frame.h).

@@ -22,6 +22,20 @@ FN ProbeOut probe_any_bsdf_sample(ProbeIn i) {
     return out_sample(bsdf_sample(in_Material(i, 0), in3(i, 16), in2(i, 19), i.w[21]));
 }
 
+/// A material of some energy tables, or none.
+FN Material in_tabulated(ProbeIn i) {
+    Material m = in_Material(i, 0);
+    m.distribution = m.distribution | (Int)((wordUint(i.w[16]) & 7u) << 1);
+    return m;
+}
+FN ProbeOut probe_energy_place(ProbeIn i) {
+    EnergyPlace p = energy_place(in_tabulated(i), in3(i, 17));
+    return put2(out1(toReal(p.at)), 1, v2(p.along_cosine, p.along_azimuth));
+}
+FN ProbeOut probe_energy_gain(ProbeIn i) { return out3(energy_gain(in_tabulated(i), i.w[17])); }
+
 #define BSDF_PROBES(name, sides) PROBE(name##_eval, "mdd", 4) PROBE(name##_sample, "mduuu", 8)
 #define PROBES                                                                                     \
-    MATERIALS(BSDF_PROBES) PROBE(any_bsdf_eval, "mdd", 4) PROBE(any_bsdf_sample, "mduuu", 8)
+    MATERIALS(BSDF_PROBES)                                                                         \
+    PROBE(any_bsdf_eval, "mdd", 4)                                                                 \
+    PROBE(any_bsdf_sample, "mduuu", 8) PROBE(energy_place, "mbd", 3) PROBE(energy_gain, "mbc", 3)

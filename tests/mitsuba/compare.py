@@ -51,6 +51,8 @@ def parhelion_render(program, case, spp, seeds, extra):
                 "independent",
                 "--filter-by",
                 "sampling",
+                # Mitsuba's rough lobes are those of single scattering.
+                "--no-energy-compensation",
                 "--force",
                 "--quiet",
             ]

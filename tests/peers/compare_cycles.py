@@ -28,7 +28,7 @@ SCENES = {
 
 def render(program, scene, out, spp, *options):
     subprocess.run(
-        [program, "render", ROOT / "scenes" / scene, "-o", out, "--force", "--quiet", "--allow-outside",
+        [program, "render", ROOT / "scenes" / scene, "-o", out, "--force", "--quiet", "--allow-outside", "--no-energy-compensation",
          "--size", "128x128", "--spp", str(spp), *options], check=True)
 
 

@@ -63,6 +63,11 @@ TEST_CASE("scene plugins: bsdf defaults") {
     CHECK(rough.alpha_u == 0.1);
     CHECK(rough.alpha_v == 0.1);
     CHECK(rough.k == Rgb(1.0));
+    CHECK(rough.energy_compensation);
+    CHECK(bsdf_of<RoughDielectricBsdf>("roughdielectric").energy_compensation);
+    const std::string plain = "<boolean name=\"energy_compensation\" value=\"false\"/>";
+    CHECK(!bsdf_of<RoughConductorBsdf>("roughconductor", plain).energy_compensation);
+    CHECK(!bsdf_of<RoughDielectricBsdf>("roughdielectric", plain).energy_compensation);
     const auto frosted = bsdf_of<RoughDielectricBsdf>("roughdielectric");
     CHECK(frosted.distribution == MicrofacetDistribution::beckmann);
     CHECK(frosted.alpha_u == 0.1);

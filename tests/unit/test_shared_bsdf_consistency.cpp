@@ -3,6 +3,7 @@
 
 #include "host/stress/materials.h"
 #include "host/stress/statistics.h"
+#include "host/stress/energy.h"
 
 using namespace parhelion;
 using namespace parhelion::stress;
@@ -193,6 +194,32 @@ TEST_CASE("Materials: white furnace: nothing gives more energy than it receives"
                 CHECK(energy[k].mean() <= 1 + 3 * energy[k].error() + 1e-6);
                 if (exact) CHECK(energy[k].mean() == Approx(1).epsilon(1e-6));
                 CHECK(energy[k].mean() >= 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("Materials: white furnace: compensated rough lobes give all they receive", "[bsdf]") {
+    Random random(24);
+    for (const MaterialCase& c : material_cases()) {
+        if (!is_rough(c.kind)) continue;
+        auto m = make_material<F32>(c);
+        CompensatedMaterial<F32> compensated(c);
+        for (f32::vec3 wo : viewer_directions(c)) {
+            f32::vec3 gain = compensated.gain(wo);
+            Mean energy[3];
+            for (int n = 0; n < 20000; n++) {
+                auto s = bsdf_sample(m, wo, random.square<F32>(), float(random.unit()));
+                auto power = f32::mul3(gain, f32::scale3(s.weight, s.eta * s.eta));
+                for (int k = 0; k < 3; k++)
+                    energy[k].add(component(power, k));
+            }
+            INFO(c.name << ", cosine " << wo.z);
+            for (int k = 0; k < 3; k++) {
+                CHECK(energy[k].mean() <= 1 + 3 * energy[k].error() + 3e-3);
+                bool white = c.reflectance[k] == 1 && (!c.transparent || c.transmittance[k] == 1);
+                if (c.lossless && white)
+                    CHECK(energy[k].mean() >= 1 - 4 * energy[k].error() - 3e-3);
             }
         }
     }

@@ -112,6 +112,9 @@ Roughness read_roughness(Properties& p) {
     return {distribution, alpha_u, p.required_number("alpha_v", positive)};
 }
 
+/// Our own, not Mitsuba's: false for the lobe of single scattering alone.
+constexpr const char* energy_compensation = "energy_compensation";
+
 Bsdf read_diffuse(Properties& p) {
     return DiffuseBsdf{p.color("reflectance", Rgb(0.5), SpectrumUse::reflectance)};
 }
@@ -136,8 +139,13 @@ Bsdf read_thin_dielectric(Properties& p) {
 Bsdf read_rough_conductor(Properties& p) {
     const Roughness r = read_roughness(p);
     const ComplexIndex index = read_complex_index(p);
-    return RoughConductorBsdf{r.distribution, r.alpha_u, r.alpha_v,
-                              index.eta,      index.k,   read_specular(p, "specular_reflectance")};
+    return RoughConductorBsdf{r.distribution,
+                              r.alpha_u,
+                              r.alpha_v,
+                              index.eta,
+                              index.k,
+                              read_specular(p, "specular_reflectance"),
+                              p.boolean(energy_compensation, true)};
 }
 
 Bsdf read_rough_dielectric(Properties& p) {
@@ -149,7 +157,8 @@ Bsdf read_rough_dielectric(Properties& p) {
                                r.alpha_v,
                                eta,
                                read_specular(p, "specular_reflectance"),
-                               read_specular(p, "specular_transmittance")};
+                               read_specular(p, "specular_transmittance"),
+                               p.boolean(energy_compensation, true)};
 }
 
 Bsdf read_null(Properties&) { return NullBsdf{}; }
