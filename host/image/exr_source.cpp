@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 namespace parhelion {
 
@@ -56,18 +57,54 @@ Name read_name(Imf::IStream& stream) {
     return name;
 }
 
+/// The bytes of values whose size the library takes from their type, whatever the file says.
+constexpr std::array<std::pair<std::string_view, std::int64_t>, 24> fixed_sizes{
+    {{"box2f", 16},      {"box2i", 16},   {"chromaticities", 32},
+     {"compression", 1}, {"double", 8},   {"envmap", 1},
+     {"float", 4},       {"int", 4},      {"keycode", 28},
+     {"lineOrder", 1},   {"m33d", 72},    {"m33f", 36},
+     {"m44d", 128},      {"m44f", 64},    {"rational", 8},
+     {"tiledesc", 9},    {"timecode", 8}, {"v2d", 16},
+     {"v2f", 8},         {"v2i", 8},      {"v3d", 24},
+     {"v3f", 12},        {"v3i", 12},     {"deepImageState", 1}}};
+
+/// Steps over a list of channels as the library does: up to an empty name.
+void skip_channels(Imf::IStream& stream) {
+    constexpr std::uint64_t after_name = 16; // type, linearity, sampling
+    while (read_name(stream)[0] != '\0')
+        stream.seekg(stream.tellg() + after_name);
+}
+
+/// Steps over a value that claims `size` bytes. Where the library would read more or less, the two
+/// would no longer mean the same by what follows.
+void skip_value(const ExrSource& source, Imf::IStream& stream, std::string_view type,
+                std::int64_t size) {
+    const auto end = stream.tellg() + static_cast<std::uint64_t>(size);
+    bool good = true;
+    for (const auto& [name, bytes] : fixed_sizes)
+        good = good && (name != type || bytes == size);
+    if (type == "chlist") {
+        skip_channels(stream);
+        good = stream.tellg() == end;
+    }
+    if (!good)
+        source.refuse("a header attribute of type " + std::string(type) + " claims " +
+                      std::to_string(size) + " bytes, not what it has");
+    stream.seekg(end);
+}
+
 /// Steps over one header (name, type, size and value of each attribute up to an empty name);
 /// returns how many attributes it has.
 int skip_header(const ExrSource& source, Imf::IStream& stream) {
     int attributes = 0;
     while (read_name(stream)[0] != '\0') {
-        read_name(stream); // the type
+        const Name type = read_name(stream);
         const std::int64_t size = read_number<int>(stream);
         const std::int64_t left = source.bytes - static_cast<std::int64_t>(stream.tellg());
         if (size < 0 || size > left)
             source.refuse("a header attribute claims " + std::to_string(size) + " bytes where " +
                           std::to_string(left) + " are left");
-        stream.seekg(stream.tellg() + static_cast<std::uint64_t>(size));
+        skip_value(source, stream, type.data(), size);
         ++attributes;
     }
     return attributes;

@@ -26,9 +26,10 @@ ExrSource open_exr(const std::string& file);
 /// The bytes, which must stay where they are, as if they were a file called `name`.
 ExrSource exr_in_memory(std::string_view bytes, const std::string& name);
 
-/// Refuses what is no OpenEXR file, and header attributes that claim more bytes than the file has:
-/// the library would allocate them before it finds the file's end. Leaves the stream at its start.
-/// Throws InputError, or the library's exception at the end of the file.
+/// Refuses what is no OpenEXR file, and header attributes that claim more bytes than the file has
+/// (the library would allocate them before it finds the file's end) or not those of their type.
+/// Leaves the stream at its start. Throws InputError, or the library's exception at the end of the
+/// file.
 void check_header(const ExrSource& source);
 
 } // namespace parhelion
