@@ -1,9 +1,9 @@
 // Every material of the list: sample, eval and pdf tell one story; reciprocity; energy.
 #include <catch2/catch.hpp>
 
+#include "host/stress/energy.h"
 #include "host/stress/materials.h"
 #include "host/stress/statistics.h"
-#include "host/stress/energy.h"
 
 using namespace parhelion;
 using namespace parhelion::stress;
