@@ -18,6 +18,7 @@ namespace parhelion::stress {
     X(accumulation,   "Sums", "A pixel's mean and variance do not drift with its samples") \
     X(density,        "Statistics", "Samples of every material follow its density (chi-square, Sidak)") \
     X(furnace,        "Statistics", "No material returns more than it receives") \
+    X(white_furnace,  "Statistics", "Rough materials with energy compensation return what they receive") \
     X(closed_forms,   "Images", "Scenes of known answers over many seeds: no bias, and errors as large as they say")
 // clang-format on
 

@@ -25,7 +25,7 @@ FN ProbeOut probe_any_bsdf_sample(ProbeIn i) {
 /// A material of some energy tables, or none.
 FN Material in_tabulated(ProbeIn i) {
     Material m = in_Material(i, 0);
-    m.distribution = m.distribution | (Int)((wordUint(i.w[16]) & 7u) << 1);
+    m.distribution = m.distribution | asInt((wordUint(i.w[16]) & 7u) << 1);
     return m;
 }
 FN ProbeOut probe_energy_place(ProbeIn i) {

@@ -8,26 +8,15 @@
 #include "host/render/device_scene.h"
 #include "host/render/material_records.h"
 #include "host/render/scene_features.h"
-#include "host/stress/energy.h"
 #include "tests/support/every_kind_scene.h"
 
-#include "host/render/single_scattering.h" // last: its macros have short names
+#include "host/stress/white_furnace.h" // last: its macros have short names
 
 using namespace parhelion;
 using namespace parhelion::stress;
 using namespace parhelion::test;
 
 namespace {
-
-MaterialCase lossless(int kind, int distribution, double alpha_u, double alpha_v, double index) {
-    MaterialCase c{"",        kind,      kind == material_roughdielectric,
-                   true,      {1, 1, 1}, {1, 1, 1},
-                   {0, 0, 0}, {1, 1, 1}, index,
-                   alpha_u,   alpha_v,   distribution};
-    c.name = fmt::format("{} {} x {}{}", distribution ? "Beckmann" : "GGX", alpha_u, alpha_v,
-                         c.transparent ? fmt::format(", eta {}", index) : "");
-    return c;
-}
 
 /// Power that a sample of the reflection (or the refraction) stands for, in double: weight times
 /// the share of Fresnel it is chosen with.
@@ -39,11 +28,6 @@ double sampled_power(const f64::Material& m, f64::vec3 wo, double u, double v, b
     f64::vec3 h = normalize3(f64::add3(wo, f64::scale3(s.wi, eta)));
     auto f = fresnel_dielectric(std::fabs(dot3(wo, h)), material_interface(m, wo.z > 0));
     return (reflect ? f.reflectance : f.transmittance) * s.weight.x * eta * eta;
-}
-
-RoughSide side_of(const MaterialCase& c, bool outside) {
-    auto m = make_material<F64>(c);
-    return {m, c.transparent, material_interface(m, outside)};
 }
 
 /// What leaves a lossless surface of single scattering that is lit from everywhere: the sampling
@@ -59,46 +43,18 @@ double mean_of_samples(const MaterialCase& c, f64::vec3 wo, int count) {
     return sum / count;
 }
 
-struct FurnaceError {
-    double worst = 0;
-    std::string where;
-    void add(double error, const std::string& place) {
-        if (std::fabs(error) <= std::fabs(worst)) return;
-        worst = error, where = place;
-    }
-};
-
-void add_furnaces(const MaterialCase& c, const std::vector<double>& azimuths, FurnaceError& error) {
-    CompensatedMaterial<F32> compensated(c);
-    for (double degrees : {0., 20., 35., 47., 60., 70., 77., 82., 85., 88., 89., 89.5, 89.9, 89.99})
-        for (double azimuth : azimuths)
-            for (double side : {1., -1.}) {
-                if (side < 0 && !c.transparent) continue;
-                double theta = degrees * M_PI / 180, sine = std::sin(theta);
-                auto wo = vec<F32>(sine * std::cos(azimuth), sine * std::sin(azimuth),
-                                   side * std::cos(theta));
-                f64::vec3 up = vec<F64>(wo.x, wo.y, std::fabs(wo.z));
-                double white =
-                    single_scattering(side_of(c, side > 0), up, false) * compensated.gain(wo).x;
-                error.add(white - 1, fmt::format("{}, {} degrees {}, azimuth {:.2f}", c.name,
-                                                 degrees, side > 0 ? "above" : "below", azimuth));
-            }
-}
-
 void check_furnaces(const char* title, const FurnaceError& error) {
     fmt::print("{}: a white furnace is off by at most {:+.3f} % ({})\n", title, 100 * error.worst,
                error.where);
     CHECK(std::fabs(error.worst) <= 0.003);
 }
 
-const double roughnesses[] = {1e-3, 3e-3, 0.01, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 1};
-
 } // namespace
 
 TEST_CASE("Energy compensation: rough metals keep what they receive", "[energy]") {
     FurnaceError error;
     for (int distribution : {0, 1})
-        for (double alpha : roughnesses)
+        for (double alpha : furnace_roughnesses)
             add_furnaces(lossless(material_roughconductor, distribution, alpha, alpha, 1.5), {0.3},
                          error);
     check_furnaces("metals", error);
@@ -108,7 +64,7 @@ TEST_CASE("Energy compensation: rough glass keeps what it receives, from both si
     for (double index : {1.01, 1.1, 1.5, 2.5, 1 / 1.01, 1 / 1.33, 1 / 2.5}) {
         FurnaceError error;
         for (int distribution : {0, 1})
-            for (double alpha : roughnesses)
+            for (double alpha : furnace_roughnesses)
                 add_furnaces(lossless(material_roughdielectric, distribution, alpha, alpha, index),
                              {0.3}, error);
         check_furnaces("glass", error);

@@ -1,0 +1,43 @@
+// White furnaces of rough materials with energy compensation: by quadrature, at every roughness and
+// angle tested.
+#include "host/stress/rows.h"
+
+#include "host/stress/white_furnace.h"
+
+namespace parhelion::stress {
+namespace {
+
+Check furnace_check(const std::string& name, const FurnaceError& error) {
+    return {.name = "white furnace, " + name,
+            .value = std::fabs(error.worst),
+            .target = 0.003,
+            .unit = "relative",
+            .worst_at = error.where};
+}
+
+} // namespace
+
+Checks row_white_furnace(StressRun& run) {
+    Checks checks;
+    for (int distribution : {0, 1}) {
+        std::string name = distribution ? "Beckmann" : "GGX";
+        FurnaceError metal, glass, anisotropic;
+        for (double alpha : furnace_roughnesses) {
+            add_furnaces(lossless(material_roughconductor, distribution, alpha, alpha, 1.5), {0.3},
+                         metal);
+            for (double index : {1.01, 1.5, 2.5, 1 / 1.33, 1 / 2.5})
+                add_furnaces(lossless(material_roughdielectric, distribution, alpha, alpha, index),
+                             {0.3}, glass);
+        }
+        for (auto [u, v] : {std::pair{0.05, 0.2}, {0.3, 0.1}, {0.1, 1.0}})
+            add_furnaces(lossless(material_roughconductor, distribution, u, v, 1.5),
+                         {0, 0.3, 0.8, M_PI / 2}, anisotropic);
+        checks.push_back(furnace_check(name + " metal", metal));
+        checks.push_back(furnace_check(name + " glass", glass));
+        checks.push_back(furnace_check(name + " metal, anisotropic", anisotropic));
+        run.done(0.5 + 0.5 * distribution);
+    }
+    return checks;
+}
+
+} // namespace parhelion::stress
