@@ -18,11 +18,20 @@ constexpr std::array material_names{MATERIALS(KIND_NAME_MATERIAL)};
 constexpr std::array emitter_names{EMITTERS(KIND_NAME)};
 
 /// JSON has no infinities.
-json number(float v) {
+template<class Real>
+json number(Real v) {
     if (std::isfinite(v)) return v;
     return std::isnan(v) ? "nan" : v > 0 ? "inf" : "-inf";
 }
 json triple(const Triple& v) { return {number(v[0]), number(v[1]), number(v[2])}; }
+
+/// A point of the device in the scene.
+json place(const SceneFrame& frame, const Triple& v) {
+    json out = json::array();
+    for (int axis = 0; axis < 3; axis++)
+        out.push_back(number(double{v[axis]} * frame.unit() + frame.centre()[axis]));
+    return out;
+}
 
 json shape_json(const Scene& scene, int index, int primitive) {
     const Shape& shape = scene.shapes[static_cast<std::size_t>(index)];
@@ -98,9 +107,9 @@ json draws_json(const TraceVertex& v) {
 
 void add_surface(const Scene& scene, const DeviceScene& flat, const TraceVertex& v, json& out) {
     const ShadeNotes::Surface& surface = *v.notes.surface;
-    out["t"] = number(v.t);
+    out["t"] = number(v.t * flat.frame.unit());
     out["shape"] = shape_json(scene, v.shape, v.primitive);
-    out["position"] = triple(surface.position);
+    out["position"] = place(flat.frame, surface.position);
     out["ng"] = triple(surface.ng);
     out["ns"] = triple(surface.ns);
     out["wo"] = triple(v.wo);
@@ -116,7 +125,7 @@ void add_surface(const Scene& scene, const DeviceScene& flat, const TraceVertex&
 
 json vertex_json(const Scene& scene, const DeviceScene& flat, const TraceVertex& v) {
     json out{{"bounce", v.bounce},
-             {"origin", triple(v.origin)},
+             {"origin", place(flat.frame, v.origin)},
              {"direction", triple(v.direction)},
              {"direction_pdf", number(v.pdf)},
              {"throughput", triple(v.throughput)},

@@ -1,8 +1,8 @@
 // Every scene of scenes/closed_form against its truth: error against the right answer, not against
 // another renderer.
 #include "host/stress/closed_form_truth.h"
-#include "tests/support/render_scene.h"
 #include "host/stress/statistics.h"
+#include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Many lights: choosing by what they send to a point changes the noise and not the image.
+#include "host/stress/statistics.h"
 #include "tests/support/many_lights_scene.h"
 #include "tests/support/render_scene.h"
-#include "host/stress/statistics.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // Where a scene is, how large and how turned: the same bits of a scene scaled by a power of two or
 // moved, the same means for any other similarity.
+#include "host/stress/statistics.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/placed_scene.h"
 #include "tests/support/render_scene.h"
-#include "host/stress/statistics.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // The variance that an image tells of itself: against sums of squares, and against the spread of
 // many images.
+#include "host/stress/statistics.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/render_scene.h"
-#include "host/stress/statistics.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -85,7 +85,7 @@ TEST_CASE("Variance is the second moment less the square of the mean, and every 
 }
 
 TEST_CASE("The variance of a pixel's value is that of one sample over their number, where samples "
-          "are independent and pixels share none",
+          "are independent",
           "[render]") {
     const FilterMethod splat = FilterMethod::splatting, sampled = FilterMethod::sampling;
     const SamplePattern independent = SamplePattern::independent;
@@ -99,9 +99,8 @@ TEST_CASE("The variance of a pixel's value is that of one sample over their numb
                box, gaussian, mitchell, splatted, pattern);
     // A variance over 64 seeds is within 18 % of the truth, and there are 1200 pixels; tails are
     // heavy.
-    for (double honest : {box, gaussian, mitchell})
+    for (double honest : {box, gaussian, mitchell, splatted})
         CHECK(std::abs(honest - 1) < 0.05);
-    CHECK(splatted < 1.0);
     CHECK(pattern < 0.9);
 }
 
