@@ -45,17 +45,22 @@ void check_numbers(const std::vector<std::string_view>& words, std::size_t neede
         if (!parse_number(words[i])) refuse(place, in_quotes(words[i]) + " is not a finite number");
 }
 
-/// Looks at every line that the library will read.
+/// Looks at every line and keeps from the library what is not used: it takes numbers there that no
+/// integer can hold.
 class TextCheck {
 public:
     explicit TextCheck(const std::string& name) : place_{name, 0} {}
-    void check(std::string_view text);
+
+    /// `text` with the other lines, and comments, left empty.
+    std::string used_lines(std::string text);
+    bool lines_or_points() const { return lines_or_points_; } ///< there were some
 
 private:
-    void check_line(std::string_view line);
+    bool is_used(std::string_view line);
     void check_corner(std::string_view corner) const;
 
     SourceLocation place_;
+    bool lines_or_points_ = false;
     std::vector<std::string_view> words_;  ///< of the current line
     std::array<std::int64_t, 3> counts_{}; ///< of v, vt and vn so far
 };
@@ -79,10 +84,10 @@ void TextCheck::check_corner(std::string_view corner) const {
     }
 }
 
-void TextCheck::check_line(std::string_view line) {
-    split_line(line.substr(0, line.find('#')), words_);
+bool TextCheck::is_used(std::string_view line) {
+    split_line(line, words_);
     const std::vector<std::string_view>& words = words_;
-    if (words.empty()) return;
+    if (words.empty()) return false;
     if (words[0] == "v" || words[0] == "vn") {
         check_numbers(words, 3, place_);
         ++counts_[words[0] == "v" ? 0 : 2];
@@ -95,16 +100,33 @@ void TextCheck::check_line(std::string_view line) {
                                " corners (accepted: 3 to " + std::to_string(max_corners) + ")");
         for (std::size_t i = 1; i < words.size(); ++i)
             check_corner(words[i]);
+    } else {
+        lines_or_points_ = lines_or_points_ || words[0] == "l" || words[0] == "p";
+        return false;
     }
+    return true;
 }
 
-void TextCheck::check(std::string_view text) {
+std::string TextCheck::used_lines(std::string text) {
+    std::size_t written = 0, feed = 0;
     for (std::size_t start = 0; start < text.size();) {
-        const std::size_t end = std::min(text.find('\n', start), text.size());
+        if (feed <= start) feed = std::min(text.find('\n', start), text.size());
+        std::string_view line = std::string_view(text).substr(start, feed - start);
+        line = line.substr(0, line.find('\r')); // to the library the end of a line as well
+        const std::size_t end = start + line.size();
+        const bool both = end < feed && end + 1 == feed && feed < text.size();
         ++place_.line;
-        check_line(text.substr(start, end - start));
-        start = end + 1;
+        line = line.substr(0, line.find('#'));
+        if (is_used(line)) {
+            std::copy(line.begin(), line.end(),
+                      text.begin() + static_cast<std::ptrdiff_t>(written));
+            written += line.size();
+        }
+        if (written < text.size()) text[written++] = '\n';
+        start = end + (both ? 2 : 1);
     }
+    text.resize(written);
+    return text;
 }
 
 /// Corners that share position, texture and normal index become one vertex.
@@ -190,7 +212,8 @@ void add_faces(VertexTable& table, const tinyobj::mesh_t& faces, const SourceLoc
 
 MeshData parse_obj(std::string text, bool flip_v, const std::string& name) {
     const SourceLocation file{name, 0};
-    TextCheck(name).check(text);
+    TextCheck check(name);
+    text = check.used_lines(std::move(text));
     tinyobj::attrib_t attributes;
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
@@ -201,12 +224,10 @@ MeshData parse_obj(std::string text, bool flip_v, const std::string& name) {
                                        /*default_vcols_fallback=*/false);
     if (!good) refuse(file, "not a usable OBJ file: " + errors.substr(0, errors.find('\n')));
     VertexTable table(attributes, flip_v, file);
-    bool others = false;
-    for (const tinyobj::shape_t& shape : shapes) {
+    for (const tinyobj::shape_t& shape : shapes)
         add_faces(table, shape.mesh, file);
-        others |= !shape.lines.indices.empty() || !shape.points.indices.empty();
-    }
-    if (others) table.mesh.notes.push_back(file.file + ": lines and points are not drawn");
+    if (check.lines_or_points())
+        table.mesh.notes.push_back(file.file + ": lines and points are not drawn");
     if (attributes.texcoords.empty()) table.mesh.uvs.clear();
     const auto is_zero = [](const glm::dvec3& n) { return n == glm::dvec3(0.0); };
     if (std::all_of(table.mesh.normals.begin(), table.mesh.normals.end(), is_zero))
