@@ -8,7 +8,7 @@ namespace parhelion::stress {
 // name, chapter, title
 // clang-format off
 #define STRESS_ROWS(X)                                                                             \
-    X(one_argument,   "Functions", "Functions of one number, at every float of their domain")      \
+    X(one_argument,   "Functions", "Functions of one number, at every float of their domain (quick: at some of those below 2^-32)")      \
     X(same_bits,      "Functions", "Host and device compute the same bits: every shared function on wild inputs") \
     X(leaks,          "Rays", "Rays at edges and corners of closed meshes never get out")          \
     X(brute_force,    "Rays", "The tree finds what trying every primitive finds")                  \

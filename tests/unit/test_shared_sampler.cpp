@@ -2,8 +2,8 @@
 // at the ends.
 #include <catch2/catch.hpp>
 
-#include "tests/support/shared_maths.h"
 #include "host/stress/statistics.h"
+#include "tests/support/shared_maths.h"
 
 using namespace parhelion;
 using namespace parhelion::stress;

@@ -2,8 +2,8 @@
 // scrambles, and independent between decisions.
 #include <catch2/catch.hpp>
 
-#include "tests/support/shared_maths.h"
 #include "host/stress/statistics.h"
+#include "tests/support/shared_maths.h"
 
 #include <array>
 #include <bit>

@@ -1,8 +1,8 @@
 // Triangles seen from a point: their solid angle to the last digits, and points uniform in it.
 #include <catch2/catch.hpp>
 
-#include "tests/support/shared_maths.h"
 #include "host/stress/statistics.h"
+#include "tests/support/shared_maths.h"
 
 #include <array>
 
