@@ -9,6 +9,7 @@ namespace {
 
 struct Kernels : WorkItem {
     // Of a walk's keys: an Int that holds the bits of a Real.
+    // NOLINTNEXTLINE(readability-identifier-naming): the kernels' name
     static int asInt(float x) { return std::bit_cast<int>(x); }
 
 #define PARHELION_REAL float

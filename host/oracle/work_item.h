@@ -11,7 +11,7 @@
 
 namespace parhelion {
 
-using uchar = unsigned char;
+using uchar = unsigned char; // NOLINT(readability-identifier-naming): OpenCL's
 
 struct WorkItem {
     std::uint64_t features = 0; ///< what HAS() asks, a mask over enum Feature
