@@ -66,8 +66,9 @@ struct Sheet {
 /// Coordinates that floats hold exactly, so that all corners lie in one plane: z = x / 2 + y / 4.
 rays::Primitives tilted_sheet(int n, float scale) {
     rays::Primitives mesh;
+    int half = n / 2;
     auto corner = [&](int i, int j) {
-        auto x = static_cast<float>(4 * (i - n / 2)), y = static_cast<float>(4 * (j - n / 2));
+        auto x = static_cast<float>(4 * (i - half)), y = static_cast<float>(4 * (j - half));
         return rays::scaled({x, y, x / 2 + y / 4}, scale);
     };
     for (int i = 0; i < n; i++)
