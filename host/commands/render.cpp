@@ -48,15 +48,6 @@ void write_output(const std::string& file, const RenderCommand& command, const S
             fmt::format("{}: {} values do not fit the film's component format", file, lost));
 }
 
-void write_stats(const std::string& file, const RenderReport& report) {
-    PendingFile pending(file);
-    std::ofstream out(pending.temporary_name());
-    out << to_json(report).dump(2) << '\n';
-    out.close();
-    if (!out) throw InputError(fmt::format("{}: cannot be written", file));
-    pending.commit();
-}
-
 /// Must come before the first OpenCL call: the CPU device reads its environment once.
 void limit_threads(int threads) {
     if (threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
@@ -107,7 +98,8 @@ int run_render(const RenderCommand& command) {
     write_output(command.output, command, scene, result.image, progress);
     result.report.write_seconds = seconds_since(start);
     result.report.host_peak_bytes = peak_host_bytes();
-    if (!command.stats_file.empty()) write_stats(command.stats_file, result.report);
+    if (!command.stats_file.empty())
+        write_text_file(command.stats_file, to_json(result.report).dump(2) + '\n');
     progress.note("wrote " + command.output);
     return static_cast<int>(ExitCode::ok);
 }

@@ -14,7 +14,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 namespace parhelion {
@@ -58,26 +57,18 @@ stress::RowResult run_row(const stress::Row& row, stress::StressRun& run, Progre
     return result;
 }
 
-void write_text(const std::string& file, const std::string& text) {
-    PendingFile pending(file);
-    std::ofstream out(pending.temporary_name(), std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw InputError(file + ": could not be written");
-    pending.commit();
-}
-
-/// Refuses what could not be written after minutes of work.
-void check_writable(const std::string& file, bool force) {
-    namespace fs = std::filesystem;
-    fs::path folder = fs::path(file).parent_path();
-    if (!folder.empty() && !fs::is_directory(folder))
-        throw InputError(fmt::format("{}: the folder {} does not exist", file, folder.string()));
-    if (fs::exists(file) && !force) throw InputError(file + ": exists; give --force to replace it");
-}
-
 std::string page_file(const StressCommand& c) {
     return (std::filesystem::path(c.report_folder) / "index.html").string();
+}
+
+/// Refuses what could not be written after minutes of work; makes the folder of the page.
+void check_outputs(const StressCommand& c) {
+    if (!c.json_file.empty()) check_output_file(c.json_file, c.force);
+    if (c.report_folder.empty()) return;
+    std::error_code error;
+    std::filesystem::create_directories(c.report_folder, error);
+    if (error) throw InputError(fmt::format("--report {}: {}", c.report_folder, error.message()));
+    check_output_file(page_file(c), c.force);
 }
 
 int run_stress(const StressCommand& c) {
@@ -87,11 +78,7 @@ int run_stress(const StressCommand& c) {
         list_rows(rows);
         return static_cast<int>(ExitCode::ok);
     }
-    if (!c.report_folder.empty()) {
-        std::filesystem::create_directories(c.report_folder);
-        check_writable(page_file(c), c.force);
-    }
-    if (!c.json_file.empty()) check_writable(c.json_file, c.force);
+    check_outputs(c);
     Progress progress = Progress::standard(c.quiet);
     RenderDevice& device = open_to_the_end(choose_device(c.device));
     stress::StressRun run(device, c.full ? stress::Effort::full : stress::Effort::quick,
@@ -99,8 +86,9 @@ int run_stress(const StressCommand& c) {
     stress::Report report{c.full ? "full" : "quick", version_text(), run.seed, device.device, {}};
     for (const stress::Row& row : rows)
         report.rows.push_back(run_row(row, run, progress));
-    if (!c.json_file.empty()) write_text(c.json_file, stress::report_json(report).dump(2) + "\n");
-    if (!c.report_folder.empty()) write_text(page_file(c), stress::report_page(report));
+    if (!c.json_file.empty())
+        write_text_file(c.json_file, stress::report_json(report).dump(2) + "\n");
+    if (!c.report_folder.empty()) write_text_file(page_file(c), stress::report_page(report));
     fmt::print("{} checks in {:.0f} s: {}\n", report.check_count(), report.seconds(),
                report.holds() ? "all hold" : "NOT all hold");
     return static_cast<int>(report.holds() ? ExitCode::ok : ExitCode::different);

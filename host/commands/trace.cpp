@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <fstream>
 
 namespace parhelion {
 namespace {
@@ -28,15 +27,6 @@ int checked_sample(int sample, int samples_per_pixel) {
     return sample;
 }
 
-void write_json(const std::string& file, const nlohmann::json& trace) {
-    PendingFile pending(file);
-    std::ofstream out(pending.temporary_name());
-    out << trace.dump(2) << '\n';
-    out.close();
-    if (!out) throw InputError(fmt::format("{}: cannot be written", file));
-    pending.commit();
-}
-
 } // namespace
 
 int run_trace(const RenderCommand& command) {
@@ -51,7 +41,7 @@ int run_trace(const RenderCommand& command) {
     if (command.json_file.empty())
         fmt::print("{}", trace_text(trace));
     else
-        write_json(command.json_file, trace);
+        write_text_file(command.json_file, trace.dump(2) + '\n');
     return static_cast<int>(ExitCode::ok);
 }
 

@@ -64,7 +64,7 @@ json light_json(const Scene& scene, const DeviceScene& flat, const TraceVertex& 
             {"shape", light_shape(scene, flat, n.pick->row)},
             {"pmf", number(n.pick->pmf)},
             {"direction", triple(n.light->wi)},
-            {"target", n.light->distant ? json(nullptr) : triple(n.light->target)},
+            {"target", n.light->distant ? json(nullptr) : place(flat.frame, n.light->target)},
             {"pdf", number(delta ? 0.f : 1.f / n.light->inverse_pdf)},
             {"radiance_over_pdf", triple(n.light->weight)},
             {"bsdf", triple(n.towards_light->f)},

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <unistd.h>
 #include <utility>
 
@@ -51,6 +52,10 @@ ImageFormat image_format(const std::string& file) {
 
 void check_output(const std::string& file, bool force) {
     image_format(file);
+    check_output_file(file, force);
+}
+
+void check_output_file(const std::string& file, bool force) {
     const fs::path folder = folder_of(file);
     std::error_code error;
     if (!fs::is_directory(folder, error))
@@ -61,6 +66,15 @@ void check_output(const std::string& file, bool force) {
     if (!fs::exists(status)) return;
     if (!fs::is_regular_file(status)) throw InputError(file + ": exists and is not a regular file");
     if (!force) throw InputError(file + ": exists; give --force to replace it");
+}
+
+void write_text_file(const std::string& file, const std::string& text) {
+    PendingFile pending(file);
+    std::ofstream out(pending.temporary_name(), std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw InputError(file + ": cannot be written");
+    pending.commit();
 }
 
 PendingFile::PendingFile(std::string final_name) : final_name_(std::move(final_name)) {

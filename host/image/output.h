@@ -15,6 +15,11 @@ ImageFormat image_format(const std::string& file);
 /// where the extension is unknown, the folder is missing or not writable, or the file exists and
 /// `force` is false.
 void check_output(const std::string& file, bool force);
+/// The same of a file of any extension.
+void check_output_file(const std::string& file, bool force);
+
+/// Writes a whole text file under a temporary name, then renames it. Throws InputError.
+void write_text_file(const std::string& file, const std::string& text);
 
 /// A file under a temporary name beside its final one. `commit` gives it its final name in one
 /// step; without it the destructor removes it.
