@@ -219,8 +219,7 @@ kernel void shade(KERNEL_PARAMETERS) {
                 SHADOW_PACK_REAL(dx, to_light.x);
                 SHADOW_PACK_REAL(dy, to_light.y);
                 SHADOW_PACK_REAL(dz, to_light.z);
-                // The end is short of the emitter by the rounding error of a hit distance.
-                SHADOW_PACK_REAL(t, sel(e.distant, (Real)INFINITY, R(1.) - GAMMA(32.f)));
+                SHADOW_PACK_REAL(t, sel(e.distant, (Real)INFINITY, shadow_ray_end()));
                 SHADOW_PACK_REAL(r, contribution.x);
                 SHADOW_PACK_REAL(g, contribution.y);
                 SHADOW_PACK_REAL(b, contribution.z);

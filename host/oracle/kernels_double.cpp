@@ -3,7 +3,7 @@
 //
 // Records are the device's, read exactly; random numbers are the same 24 bits. So a path takes the
 // way it takes in single precision, but where rounding decides.
-#include "host/oracle/wave_memory.h"
+#include "host/oracle/run_stage.h"
 #include "host/oracle/work_item.h"
 
 #include <array>
@@ -68,14 +68,7 @@ struct Kernels : WorkItem {
 
 void run_work_item(Stage stage, const HostLaunch<double>& launch, int depth, int number) {
     Kernels kernels{{launch.features, number}};
-#define SCENE_ARGUMENT(type, name) launch.scene.name.data(),
-#define WORK_ARGUMENT(type, name) launch.memory.name.data(),
-#define RUN_STAGE(name, group)                                                                     \
-    case Stage::name:                                                                              \
-        return kernels.name(SCENE_BUFFERS(SCENE_ARGUMENT) WORK_BUFFERS(WORK_ARGUMENT)              \
-                                launch.params,                                                     \
-                            launch.wave, depth);
-    switch (stage) { STAGES(RUN_STAGE) }
+    run_stage(kernels, stage, launch, depth);
 }
 
 } // namespace parhelion

@@ -1,5 +1,5 @@
 // The kernels as C++: the text that OpenCL compiles, for one lane, in single precision.
-#include "host/oracle/wave_memory.h"
+#include "host/oracle/run_stage.h"
 #include "host/oracle/work_item.h"
 
 #include "host/oracle/opencl_names.h"
@@ -25,14 +25,7 @@ struct Kernels : WorkItem {
 
 void run_work_item(Stage stage, const HostLaunch<float>& launch, int depth, int number) {
     Kernels kernels{{launch.features, number}};
-#define SCENE_ARGUMENT(type, name) launch.scene.name.data(),
-#define WORK_ARGUMENT(type, name) launch.memory.name.data(),
-#define RUN_STAGE(name, group)                                                                     \
-    case Stage::name:                                                                              \
-        return kernels.name(SCENE_BUFFERS(SCENE_ARGUMENT) WORK_BUFFERS(WORK_ARGUMENT)              \
-                                launch.params,                                                     \
-                            launch.wave, depth);
-    switch (stage) { STAGES(RUN_STAGE) }
+    run_stage(kernels, stage, launch, depth);
 }
 
 } // namespace parhelion

@@ -22,6 +22,9 @@ struct RenderDevice {
     explicit RenderDevice(const Device& d)
         : device(d), context(d.handle), queue(context, d.handle, CL_QUEUE_PROFILING_ENABLE) {}
 
+    /// Where compiled programs are kept: nowhere, if the driver does.
+    ProgramCache program_cache() const { return device.keeps_programs ? ProgramCache({}) : cache; }
+
     Device device;
     cl::Context context;
     cl::CommandQueue queue;

@@ -83,8 +83,7 @@ Compiled compile(const RenderDevice& d, const Wanted& w, int work_group_size,
     auto start = Clock::now();
     if (w.opened) return {d.programs.at(w.key), true};
     std::uint64_t beside_bytes = beside ? beside->wait().peak_bytes : 0;
-    Program program(d.context, d.device, d.device.keeps_programs ? ProgramCache({}) : d.cache,
-                    w.source);
+    Program program(d.context, d.device, d.program_cache(), w.source);
     launch_empty(d, w, program, work_group_size);
     return {program, w.kept || program.from_cache(), seconds_since(start), beside_bytes};
 }

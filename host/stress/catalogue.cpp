@@ -7,11 +7,18 @@
 namespace parhelion::stress {
 namespace {
 
+std::string measures_of(const FunctionTest& test) {
+    std::string text;
+    for (const Measure& measure : test.measures)
+        text += (text.empty() ? "" : "; ") + measure.name;
+    return text;
+}
+
 void append(std::vector<Row>& rows, const std::vector<FunctionTest>& tests) {
     for (const FunctionTest& test : tests)
         rows.push_back({.name = test.name.empty() ? test.probe : test.name,
                         .chapter = "Functions",
-                        .title = "",
+                        .title = "Against a higher precision: " + measures_of(test),
                         .run = [test](StressRun& run) { return run_function_test(run, test); }});
 }
 

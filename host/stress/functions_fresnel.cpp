@@ -1,13 +1,10 @@
 // Fresnel's formulas and refraction.
 #include "host/stress/functions.h"
 
-#include <algorithm>
-#include <complex>
+#include "host/stress/fresnel_truth.h"
 
 namespace parhelion::stress {
 namespace {
-
-using Long = long double;
 
 void put_interface(float* words, const f32::Interface& i) {
     words[0] = i.eta, words[1] = i.inv_eta, words[2] = i.m_high, words[3] = i.m_low;
@@ -16,42 +13,6 @@ void put_interface(float* words, const f32::Interface& i) {
 /// eta^2 - 1 of the interface in these words, to 48 bits.
 Long contrast(const float* words) { return Long(words[2]) + Long(words[3]); }
 Long index(const float* words) { return sqrtl(1 + contrast(words)); }
-
-/// From 1 + 1e-6 to 2.5, every second one the other way round.
-double draw_index(Random& random) {
-    double eta = 1 + random.log_between(1e-6, 1.5);
-    return random.sign() > 0 ? eta : 1 / eta;
-}
-
-/// From 1e-7 to 1, a third each logarithmic, uniform, and close to 1.
-float draw_cosine(Random& random) {
-    double choice = random.unit();
-    double c = choice < 1 / 3.   ? random.log_between(1e-7, 1)
-               : choice < 2 / 3. ? random.unit()
-                                 : 1 - random.log_between(1e-7, 1);
-    return std::max(static_cast<float>(c), 1e-7f);
-}
-
-struct Truth {
-    Long reflectance, transmittance;
-};
-
-/// Fresnel's amplitudes, differences of nearly equal numbers written as quotients.
-Truth dielectric_truth(Long c, Long m) {
-    Long eta2 = 1 + m, g2 = m + c * c;
-    if (g2 <= 0) return {1, 0};
-    Long g = sqrtl(g2), s = m / ((c + g) * (c + g));
-    Long p = m * ((eta2 + 1) * c * c - 1) / ((eta2 * c + g) * (eta2 * c + g));
-    return {(s * s + p * p) / 2,
-            2 * c * g * (1 / ((c + g) * (c + g)) + eta2 / ((eta2 * c + g) * (eta2 * c + g)))};
-}
-
-Long conductor_truth(Long c, std::complex<Long> n) {
-    std::complex<Long> beyond = std::sqrt(n * n - (1 - c) * (1 + c));
-    return (std::norm((c - beyond) / (c + beyond)) +
-            std::norm((n * n * c - beyond) / (n * n * c + beyond))) /
-           2;
-}
 
 bool in_unit_interval(float x) { return x >= 0 && x <= 1; }
 
@@ -65,12 +26,12 @@ FunctionTest dielectric() {
                          {"outside of [0, 1]", "inputs", 0}},
             .draw =
                 [](Random& random, float* words) {
-                    words[0] = draw_cosine(random);
-                    put_interface(words + 1, interface_of<F32>(draw_index(random)));
+                    words[0] = random_cosine(random);
+                    put_interface(words + 1, interface_of<F32>(random_index(random)));
                 },
             .judge =
                 [](const float* in, const float* out, double* errors) {
-                    Truth truth = dielectric_truth(in[0], contrast(in + 1));
+                    FresnelTruth truth = dielectric_truth(in[0], contrast(in + 1));
                     // Where less than that is reflected, no float of the path remembers it.
                     errors[0] =
                         truth.reflectance > 1e-30L ? ulps(out[0], truth.reflectance) : not_asked;
@@ -142,7 +103,7 @@ FunctionTest refraction() {
                         w = f32::normalize3(w);
                     }
                     words[0] = w.x, words[1] = w.y, words[2] = w.z;
-                    put_interface(words + 3, interface_of<F32>(draw_index(random)));
+                    put_interface(words + 3, interface_of<F32>(random_index(random)));
                 },
             .judge =
                 [](const float* in, const float* out, double* errors) {
@@ -171,7 +132,7 @@ FunctionTest conductor() {
             .measures = {{"reflectance", "ulp", 16}, {"outside of [0, 1]", "inputs", 0}},
             .draw =
                 [](Random& random, float* words) {
-                    words[0] = draw_cosine(random);
+                    words[0] = random_cosine(random);
                     words[1] = static_cast<float>(random.log_between(0.05, 10));
                     words[2] = static_cast<float>(random.log_between(1e-3, 20));
                     if (random.bits() % 16 == 0) words[2] = 0;
@@ -198,7 +159,7 @@ FunctionTest conductor_without_absorption() {
             .measures = {{"reflectance", "ulp", 16}},
             .draw =
                 [](Random& random, float* words) {
-                    words[0] = draw_cosine(random);
+                    words[0] = random_cosine(random);
                     words[1] = static_cast<float>(random.between(1.05, 2.5));
                     words[2] = 0;
                 },

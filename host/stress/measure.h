@@ -35,6 +35,14 @@ typename P::Vec3 vec_as(V v) {
 }
 inline f64::vec3 wide(f32::vec3 v) { return {v.x, v.y, v.z}; }
 
+inline f32::Primitive primitive_of(const PrimitiveRecord& record) {
+    f32::Primitive p{};
+#define COPY_FIELD(type, name) p.name = record.name;
+    PRIMITIVE_FIELDS(COPY_FIELD)
+#undef COPY_FIELD
+    return p;
+}
+
 /// What the record of a triangle keeps in `extra`.
 inline float inverse_normal_length(const f32::Primitive& p) {
     f64::vec3 a = wide(f32::primitive_a(p)), b = wide(f32::primitive_b(p)),

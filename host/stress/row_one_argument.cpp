@@ -25,19 +25,6 @@ struct Range {
     std::uint32_t first, last; ///< bits; empty where first > last
 };
 
-struct OneArgument {
-    std::string name;
-    f32::Real (*function)(f32::Uint);
-    std::array<Range, 2> ranges;
-    std::uint32_t step; ///< from one argument to the next
-};
-
-std::vector<OneArgument> functions() {
-#define LIST_FUNCTION(name, first, last, first2, last2, step)                                      \
-    {#name, f32::one_##name, {{{first, last}, {first2, last2}}}, step},
-    return {ONE_ARGUMENT_FUNCTIONS(LIST_FUNCTION)};
-}
-
 float argument(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 
 /// What is asked of a function: the error of y = f(bits), in this unit, and how large it may be.
@@ -66,29 +53,40 @@ double arc_cosine(double x) {
                                  : std::acos(x);
 }
 
-/// By the name in the list; absolute where the result is an angle or a coordinate.
-Accuracy accuracy(const std::string& name) {
-    if (name == "sine")
-        return {"", 1.2e-7, [](std::uint32_t bits, float y) {
-                    return std::fabs(double(y) - sine_of_turns(argument(bits)));
-                }};
-    if (name == "cosine")
-        return {"", 1.2e-7, [](std::uint32_t bits, float y) {
-                    return std::fabs(double(y) - cosine_of_turns(argument(bits)));
-                }};
-    if (name == "exp_negative")
-        return {"relative", 2e-7, [](std::uint32_t bits, float y) {
-                    return std::fabs(double(y) / exponential(argument(bits)) - 1);
-                }};
-    if (name == "acos")
-        return {"radians", 4e-7, [](std::uint32_t bits, float y) {
-                    return std::fabs(double(y) - arc_cosine(argument(bits)));
-                }};
-    if (name == "uniform01") // exact, and so never 1
-        return {"", 0, [](std::uint32_t bits, float y) {
-                    return y < 1 ? std::fabs(double(y) - double(bits >> 8) * 0x1p-24) : INFINITY;
-                }};
-    throw std::logic_error("no accuracy is asked of " + name);
+// By the names in the list; absolute where the result is an angle or a coordinate.
+
+constexpr Accuracy accuracy_of_sine{"", 1.2e-7, [](std::uint32_t bits, float y) {
+                                        return std::fabs(double(y) - sine_of_turns(argument(bits)));
+                                    }};
+constexpr Accuracy accuracy_of_cosine{"", 1.2e-7, [](std::uint32_t bits, float y) {
+                                          return std::fabs(double(y) -
+                                                           cosine_of_turns(argument(bits)));
+                                      }};
+constexpr Accuracy accuracy_of_exp_negative{"relative", 2e-7, [](std::uint32_t bits, float y) {
+                                                return std::fabs(
+                                                    double(y) / exponential(argument(bits)) - 1);
+                                            }};
+constexpr Accuracy accuracy_of_acos{"radians", 4e-7, [](std::uint32_t bits, float y) {
+                                        return std::fabs(double(y) - arc_cosine(argument(bits)));
+                                    }};
+/// Exact, and so never 1.
+constexpr Accuracy accuracy_of_uniform01{
+    "", 0, [](std::uint32_t bits, float y) {
+        return y < 1 ? std::fabs(double(y) - double(bits >> 8) * 0x1p-24) : double(INFINITY);
+    }};
+
+struct OneArgument {
+    std::string name;
+    f32::Real (*function)(f32::Uint);
+    std::array<Range, 2> ranges;
+    std::uint32_t step; ///< from one argument to the next
+    Accuracy accuracy;
+};
+
+std::vector<OneArgument> functions() {
+#define LIST_FUNCTION(name, first, last, first2, last2, step)                                      \
+    {#name, f32::one_##name, {{{first, last}, {first2, last2}}}, step, accuracy_of_##name},
+    return {ONE_ARGUMENT_FUNCTIONS(LIST_FUNCTION)};
 }
 
 struct Finding {
@@ -124,18 +122,18 @@ struct Worker {
 };
 
 /// The arguments of a range from `first` on that fit into a batch.
-Finding try_batch(Worker& w, const OneArgument& f, int which, const Accuracy& a,
-                  std::uint32_t first, std::uint32_t last) {
+Finding try_batch(Worker& w, const OneArgument& f, int which, std::uint32_t first,
+                  std::uint32_t last) {
     w.run(first, f.step, which);
     Finding found;
     for (std::uint32_t i = 0; i < batch && i <= (last - first) / f.step; i++) {
         std::uint32_t bits = first + i * f.step;
         float host = f.function(bits);
         found.tried++;
-        double error = a.error(bits, host);
+        double error = f.accuracy.error(bits, host);
         if (!same_bits(host, w.values[i])) {
             found.differing++;
-            error = std::max(error, a.error(bits, w.values[i]));
+            error = std::max(error, f.accuracy.error(bits, w.values[i]));
         }
         if (!(error <= found.worst)) found.worst = error, found.worst_bits = bits;
     }
@@ -154,7 +152,6 @@ bool tried(Effort effort, const OneArgument& f, std::uint32_t first, std::size_t
 Finding try_all(StressRun& run, const OneArgument& f, int which) {
     const Program& program = run.program("one_argument");
     tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(run.device, program); });
-    Accuracy a = accuracy(f.name);
     Finding all;
     for (Range range : f.ranges) {
         if (range.first > range.last) continue;
@@ -164,7 +161,7 @@ Finding try_all(StressRun& run, const OneArgument& f, int which) {
         tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t i) {
             auto first = range.first + static_cast<std::uint32_t>(i) * batch * f.step;
             if (i + 1 == batches || tried(run.effort, f, first, i))
-                found[i] = try_batch(workers.local(), f, which, a, first, range.last);
+                found[i] = try_batch(workers.local(), f, which, first, range.last);
             run.done(static_cast<double>(++finished) / static_cast<double>(batches));
         });
         for (const Finding& part : found)
@@ -179,7 +176,7 @@ Checks row_one_argument(StressRun& run) {
     Checks checks;
     std::vector<OneArgument> list = functions();
     for (std::size_t i = 0; i < list.size(); i++) {
-        Accuracy a = accuracy(list[i].name);
+        const Accuracy& a = list[i].accuracy;
         Finding f = try_all(run, list[i], static_cast<int>(i));
         checks.push_back({.name = list[i].name + ": largest error",
                           .value = f.worst,

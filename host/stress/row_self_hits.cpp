@@ -1,33 +1,19 @@
 // Rays that leave a surface: they do not hit it again, they do not fall through it, and nothing but
 // what is in the way keeps light from it.
-#include "host/stress/rows.h"
-#include "host/stress/traversal.h"
-
-#include "host/stress/measure.h"
-#include "host/stress/shapes.h"
+#include "host/stress/ray_rows.h"
 
 namespace parhelion::stress {
 namespace {
 
 using rays::Vector;
 
-/// What the record of a triangle keeps in `extra`, for every triangle of a mesh.
+/// With what the record of a triangle keeps in `extra`.
 rays::Primitives with_normals(rays::Primitives mesh) {
     for (PrimitiveRecord& p : mesh) {
-        f64::vec3 a = f64::v3(p.ax, p.ay, p.az), b = f64::v3(p.bx, p.by, p.bz),
-                  c = f64::v3(p.cx, p.cy, p.cz);
-        p.extra =
-            static_cast<float>(1 / f64::length3(f64::cross3(f64::sub3(b, a), f64::sub3(c, a))));
+        p.extra = inverse_normal_length(primitive_of(p));
         p.flags = geometry_triangle;
     }
     return mesh;
-}
-
-f32::Primitive primitive_of(const PrimitiveRecord& r) {
-    f32::Primitive p{};
-    p.ax = r.ax, p.ay = r.ay, p.az = r.az, p.bx = r.bx, p.by = r.by, p.bz = r.bz;
-    p.cx = r.cx, p.cy = r.cy, p.cz = r.cz, p.extra = r.extra, p.flags = r.flags;
-    return p;
 }
 
 /// A point of a triangle, most often close to one of its sides.
@@ -48,14 +34,10 @@ f32::vec3 some_direction(f32::vec3 n, Random& random) {
 }
 
 TracedRay leaving(const f32::SurfaceInteraction& s, f32::vec3 w, int primitive) {
-    f32::vec3 o = f32::leave_surface(s.p, f32::surface_clearance(s.error, s.ng), s.ng, w);
-    TracedRay ray{{o.x, o.y, o.z}, {w.x, w.y, w.z}};
+    TracedRay ray{vector_of(leaving_point(s, w)), vector_of(w)};
     ray.excluded = primitive;
     return ray;
 }
-
-// -------------------------------------------------------------------------------------------
-// sheets and spheres
 
 struct Sheet {
     std::string name;
@@ -121,9 +103,7 @@ void count_self_hits(Traversal& traversal, const Sheet& sheet, std::uint64_t cou
                      Counts& counts) {
     constexpr std::uint64_t batch = 1 << 17;
     rays::Primitives mesh = with_normals(sheet.mesh);
-    Bvh bvh;
-    int root = bvh_append(bvh, mesh);
-    traversal.upload(bvh, root);
+    traversal.upload(mesh);
     Vector middle{};
     for (const PrimitiveRecord& p : mesh)
         middle = rays::add(middle,
@@ -151,31 +131,21 @@ void count_self_hits(Traversal& traversal, const Sheet& sheet, std::uint64_t cou
     }
 }
 
-Check count_check(const std::string& name, std::uint64_t value, std::uint64_t samples) {
-    return {.name = name,
-            .value = static_cast<double>(value),
-            .target = 0,
-            .unit = "rays",
-            .samples = samples};
-}
-
 } // namespace
 
 Checks row_self_hits(StressRun& run) {
     Checks checks;
-    Traversal traversal(run.device, {.lanes = run.device.device.lanes()});
     std::vector<Sheet> list = sheets();
     std::uint64_t count = run.count(100'000, 10'000'000, 1'000'000'000) / list.size();
     Random random(run.seed);
     for (std::size_t i = 0; i < list.size(); i++) {
         Counts counts;
-        count_self_hits(traversal, list[i], count, random, counts);
+        count_self_hits(run.traversal(), list[i], count, random, counts);
         checks.push_back(
-            count_check(list[i].name + ": hit again by a path", counts.self_hits, counts.rays));
+            rays_check(list[i].name + ": hit again by a path", counts.self_hits, counts.rays));
         checks.push_back(
-            count_check(list[i].name + ": in its own shadow", counts.shadows, counts.rays));
-        checks.push_back(
-            count_check(list[i].name + ": not finite", counts.not_finite, counts.rays));
+            rays_check(list[i].name + ": in its own shadow", counts.shadows, counts.rays));
+        checks.push_back(rays_check(list[i].name + ": not finite", counts.not_finite, counts.rays));
         run.done(static_cast<double>(i + 1) / static_cast<double>(list.size()));
     }
     return checks;

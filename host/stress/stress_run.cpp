@@ -22,4 +22,9 @@ const Program& StressRun::program(const std::string& file) {
     return found->second;
 }
 
+Traversal& StressRun::traversal() {
+    if (!traversal_) traversal_.emplace(device, ProgramOptions{.lanes = device.device.lanes()});
+    return *traversal_;
+}
+
 } // namespace parhelion::stress

@@ -4,11 +4,13 @@
 #include "host/progress.h"
 #include "host/render/render_device.h"
 #include "host/stress/check.h"
+#include "host/stress/traversal.h"
 
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace parhelion::stress {
@@ -27,6 +29,8 @@ public:
     void done(double fraction);
     /// The device's program of kernels/stress/<file>.cl, compiled once.
     const Program& program(const std::string& file);
+    /// The kernels that trace rays, compiled once; what they trace is the row's.
+    Traversal& traversal();
 
     RenderDevice& device;
     const Effort effort;
@@ -36,6 +40,7 @@ private:
     Progress& progress_;
     std::mutex talking_;
     std::map<std::string, Program> programs_;
+    std::optional<Traversal> traversal_;
 };
 
 /// A row of the catalogue: checks that are run together.

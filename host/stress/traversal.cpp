@@ -28,7 +28,7 @@ std::vector<T> host_copy(const RenderDevice& d, const Buffer<T>& buffer) {
 }
 
 Program compile(const RenderDevice& d, const ProgramOptions& options) {
-    return {d.context, d.device, d.device.keeps_programs ? ProgramCache({}) : d.cache,
+    return {d.context, d.device, d.program_cache(),
             program_source({"intersect.cl", "shadow.cl"}, options)};
 }
 
@@ -61,6 +61,12 @@ void Traversal::upload(const Bvh& bvh, int root) {
     leaves_ = Buffer<BvhLine>(d_.context, d_.queue, "leaves", bvh.leaves.data(), bvh.leaves.size());
     root_ = root;
     extent_ = bvh_extent(bvh, root);
+}
+
+void Traversal::upload(std::span<const PrimitiveRecord> primitives) {
+    Bvh bvh;
+    int root = bvh_append(bvh, primitives);
+    upload(bvh, root);
 }
 
 std::vector<TracedHit> Traversal::closest(std::span<const TracedRay> rays) const {

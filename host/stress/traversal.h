@@ -6,6 +6,7 @@
 #include "host/cl/buffer.h"
 #include "host/render/render_device.h"
 
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -13,7 +14,7 @@
 namespace parhelion::stress {
 
 struct TracedRay {
-    float origin[3], direction[3];
+    std::array<float, 3> origin, direction;
     float t_max = std::numeric_limits<float>::infinity();
     int excluded = -1;
 };
@@ -32,6 +33,8 @@ public:
     Traversal(const RenderDevice& device, const ProgramOptions& options);
 
     void upload(const Bvh& bvh, int root);
+    /// A tree over these alone.
+    void upload(std::span<const PrimitiveRecord> primitives);
 
     /// Throws std::runtime_error where packets and streams differ; so does `occluded`.
     std::vector<TracedHit> closest(std::span<const TracedRay> rays) const;

@@ -1,37 +1,21 @@
 // No ray from inside a closed mesh gets out on the device, wherever the mesh is and however large.
 #include "tests/support/traversal.h"
 
-#include "host/stress/shapes.h"
+#include "host/stress/ray_rows.h"
 
 using namespace parhelion;
 using namespace parhelion::test;
-using rays::Vector;
+using namespace parhelion::stress;
 
 namespace {
 
-struct Place {
-    float radius;
-    Vector centre;
-};
-
-/// Rays from inside to every corner, and to a point of an edge that is as exactly on it as floats
-/// can say.
 std::vector<TestRay> aimed_rays(const rays::Primitives& mesh, const Place& place,
                                 std::size_t count) {
     rays::Random random(11);
     std::vector<TestRay> rays;
     rays.reserve(count);
-    for (std::size_t i = 0; i < count; i++) {
-        const PrimitiveRecord& p = mesh[i % mesh.size()];
-        Vector a{p.ax, p.ay, p.az}, b{p.bx, p.by, p.bz};
-        float s = i % 3 == 0 ? 0.f : i % 3 == 1 ? .5f : rays::uniform(random, 0, 1);
-        Vector aim = rays::add(a, rays::scaled(rays::subtract(b, a), s));
-        Vector o = place.centre;
-        if (i / mesh.size() > 0)
-            o = rays::add(o, rays::uniform_vector(random, -.4f * place.radius, .4f * place.radius));
-        Vector v = rays::subtract(aim, o);
-        rays.push_back({{o[0], o[1], o[2]}, {v[0], v[1], v[2]}});
-    }
+    for (std::size_t i = 0; i < count; i++)
+        rays.push_back(aimed_ray(mesh, place, random, i));
     return rays;
 }
 
@@ -43,14 +27,12 @@ TEST_CASE("A million rays at edges and corners of closed meshes: no leak on the 
     const Place places[] = {{1, {0, 0, 0}}, {64, {148376, 1234, -223423}}, {4096, {0, 0, 0}}};
     std::size_t rays_in_all = 0;
     for (const Variant& variant : variants) {
-        Traversal traversal(d, variant);
+        parhelion::test::Traversal traversal(d, variant);
         // The default variant has the full number of rays, the others check that they are no worse.
         std::size_t count = variant.lanes == 16 && !variant.portable ? 340000 : 30000;
         for (const Place& place : places) {
             rays::Primitives mesh = rays::subdivided_sphere(4, place.radius, place.centre);
-            Bvh bvh;
-            int root = bvh_append(bvh, mesh);
-            traversal.upload(bvh, root);
+            traversal.upload(mesh);
             std::vector<TestRay> rays = aimed_rays(mesh, place, count);
             std::vector<TestHit> hits = traversal.closest(rays);
             std::vector<bool> occluded = traversal.occluded(rays);

@@ -1,52 +1,15 @@
 // Fresnel's formulas and refraction in float against long double: within ulps, also where the
 // textbook forms fail.
-#include <complex>
-
 #include <catch2/catch.hpp>
 
-#include "tests/support/shared_maths.h"
+#include "host/stress/fresnel_truth.h"
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::stress;
 
 namespace {
 
-struct Truth {
-    long double reflectance, transmittance;
-};
-
-/// In long double, with differences of nearly equal numbers written as quotients.
-Truth dielectric_truth(long double c, long double eta) {
-    long double m = (eta - 1) * (eta + 1), g_squared = m + c * c;
-    if (g_squared <= 0) return {1, 0};
-    long double g = sqrtl(g_squared), s = m / ((c + g) * (c + g)), eta2 = eta * eta;
-    long double p = m * ((eta2 + 1) * c * c - 1) / ((eta2 * c + g) * (eta2 * c + g));
-    long double t =
-        2 * c * g * (1 / ((c + g) * (c + g)) + eta2 / ((eta2 * c + g) * (eta2 * c + g)));
-    return {(s * s + p * p) / 2, t};
-}
-
-long double conductor_truth(long double c, std::complex<long double> n) {
-    std::complex<long double> beyond = std::sqrt(n * n - (1 - c) * (1 + c));
-    return (std::norm((c - beyond) / (c + beyond)) +
-            std::norm((n * n * c - beyond) / (n * n * c + beyond))) /
-           2;
-}
-
-/// Relative indices from 1 + 1e-6 to 2.5, every second one the other way round.
-double random_index(Random& random) {
-    double eta = 1 + random.log_between(1e-6, 1.5);
-    return random.sign() > 0 ? eta : 1 / eta;
-}
-
-/// Cosines from 1e-7 to 1, a third each logarithmic, uniform, and close to 1.
-float random_cosine(Random& random) {
-    double choice = random.unit();
-    double c = choice < 1 / 3.   ? random.log_between(1e-7, 1)
-               : choice < 2 / 3. ? random.unit()
-                                 : 1 - random.log_between(1e-7, 1);
-    return std::max(float(c), 1e-7f);
-}
+Long contrast(Long eta) { return (eta - 1) * (eta + 1); }
 
 } // namespace
 
@@ -63,7 +26,7 @@ TEST_CASE("Fresnel: dielectric reflectance within 16 ulp, transmittance within 8
         f32::Fresnel f = f32::fresnel_dielectric(c, interface_of<F32>(eta));
         in_range &= f.reflectance >= 0 && f.reflectance <= 1 && f.transmittance >= 0 &&
                     f.transmittance <= 1.000001f;
-        Truth truth = dielectric_truth(c, eta);
+        FresnelTruth truth = dielectric_truth(c, contrast(eta));
         if ((g_squared > 0) != (f.g > 0)) FAIL("wrong side of the critical angle");
         if (truth.reflectance > 1e-30L) reflectance.add(ulps(f.reflectance, truth.reflectance));
         transmittance.add(ulps(f.transmittance, truth.transmittance));
@@ -134,7 +97,8 @@ TEST_CASE("Fresnel: a conductor that does not absorb is a dielectric", "[fresnel
     Worst worst;
     for (int n = 0; n < 100000; n++) {
         float eta = float(random.between(1.05, 2.5)), c = random_cosine(random);
-        worst.add(ulps(f32::fresnel_conductor(c, eta, 0), dielectric_truth(c, eta).reflectance));
+        worst.add(ulps(f32::fresnel_conductor(c, eta, 0),
+                       dielectric_truth(c, contrast(eta)).reflectance));
     }
     CHECK(worst.value() <= 16);
 }
