@@ -13,16 +13,54 @@
 #error "a packet must not be wider than a block of pixels"
 #endif
 
-/// Adds a group of `count` samples of a block, from `first` of the wave on, to the film. Returns
-/// how many samples were not finite and are left out.
-FN uint add_samples(BlockResults block, WaveParams wave, int first, int count,
-                    global const float* filter, int reach, FilmTile film) {
+/// What is known of the bad samples of a block.
+typedef struct {
+    global ulong* counts; // for each fault
+    global int* first;    // BAD_SAMPLE_FIELDS
+    int x, y;             // pixel in the block's corner
+    int sample;           // number of the group's first
+} BadSamples;
+
+/// A lane of a part of a block's pixels, and a sample of its group.
+FN void note_bad_sample(BlockResults block, const SampleGroup* g, int part, int lane, int n,
+                        BadSamples bad) {
+    IntLanes slots;
+    slots.lanes = g->slot[n];
+    global const Scalar* of_sample = block.results + slots.at[lane];
+    Scalar weight = of_sample[result_weight * block.stride];
+    int told = (int)(weight != weight); // by the stage that made it
+    int code = told ? (int)of_sample[result_alpha * block.stride] : (int)fault_sum;
+    bad.counts[code % fault_count]++;
+    if (bad.first[bad_sample_known]) return;
+    int pixel = part * LANES + lane;
+    bad.first[bad_sample_known] = 1;
+    bad.first[bad_sample_sample] = bad.sample + n;
+    bad.first[bad_sample_x] = bad.x + (pixel & 3);
+    bad.first[bad_sample_y] = bad.y + (pixel >> 2);
+    bad.first[bad_sample_fault] = code % fault_count;
+    bad.first[bad_sample_bounce] = told ? code / fault_count : -1;
+}
+
+/// In the order of samples, then pixels.
+FN void note_bad_samples(BlockResults block, const SampleGroup* groups, BadSamples bad) {
+    for (int n = 0; n < groups[0].count; n++)
+        for (int part = 0; part < BLOCK_PARTS; part++) {
+            uint bits = maskBits(!lanesOf(groups[part].good[n]));
+            for (; bits; bits &= bits - 1)
+                note_bad_sample(block, &groups[part], part, lowest_bit(bits), n, bad);
+        }
+}
+
+/// Adds a group of `count` samples of a block, from `first` of the wave on, to the film.
+FN void add_samples(BlockResults block, WaveParams wave, int first, int count,
+                    global const float* filter, int reach, FilmTile film, BadSamples bad) {
     SampleGroup groups[BLOCK_PARTS];
-    uint dropped = 0;
+    uint any_bad = 0;
     for (int part = 0; part < BLOCK_PARTS; part++) {
         groups[part] = sample_group(block, wave, part, first, count);
-        dropped += dropped_samples(&groups[part]);
+        any_bad |= groups[part].bad;
     }
+    if (RARELY(any_bad)) note_bad_samples(block, groups, bad);
     if (HAS(filter_splatting)) {
         splat_groups(block, groups, filter, reach, film);
         if (HAS(variance)) splat_spreads(block, groups, filter, reach, film);
@@ -32,29 +70,33 @@ FN uint add_samples(BlockResults block, WaveParams wave, int first, int count,
             if (HAS(variance)) join_group(&groups[part], film, part);
         }
     }
-    return dropped;
 }
 
-/// Reads: results, filter values. Writes: film (one work-item owns a tile), statistics (non-finite
-/// samples, dropped and counted). Samples are added in groups in the order of their numbers, so the
-/// sums do not depend on the waves.
+/// Reads: results, filter values. Writes: film (one work-item owns a tile); of samples that are not
+/// finite, which are left out, statistics (how many) and where the first was. Samples are added in
+/// groups in the order of their numbers, so the sums do not depend on the waves.
 kernel void accumulate(KERNEL_PARAMETERS) {
     int block = get_global_id(0);
     if (block >= wave.block_count) return;
+    int tile = wave.first_block + block;
     BlockResults gathered;
     gathered.results = results + (long)block * wave.sample_count * BLOCK_PIXELS;
     gathered.stride = params.result_stride;
     gathered.squares = result_field_count + params.aov_channels;
-    FilmTile tile;
-    tile.stride = params.film_stride;
-    tile.channels = gathered.squares + (HAS(moments) ? 3 : 0);
-    tile.high = film + (long)(wave.first_block + block) * TILE_CELLS(params.filter_reach);
-    int channels = tile.channels + (HAS(variance) ? spread_channel_count : 0);
-    tile.low = tile.high + (long)channels * tile.stride;
-    uint dropped = 0;
-    for (int first = 0; first < wave.sample_count; first += FILM_SAMPLES)
-        dropped += add_samples(gathered, wave, first, min(FILM_SAMPLES, wave.sample_count - first),
-                               filter_values, params.filter_reach, tile);
-    if (dropped)
-        statistics[statistic_count * block + statistic_non_finite_samples] += (ulong)dropped;
+    FilmTile of_film;
+    of_film.stride = params.film_stride;
+    of_film.channels = gathered.squares + (HAS(moments) ? 3 : 0);
+    of_film.high = film + (long)tile * TILE_CELLS(params.filter_reach);
+    int channels = of_film.channels + (HAS(variance) ? spread_channel_count : 0);
+    of_film.low = of_film.high + (long)channels * of_film.stride;
+    BadSamples bad;
+    bad.counts = statistics + statistic_count * block + statistic_first_fault;
+    bad.first = bad_samples + bad_sample_field_count * (long)tile;
+    bad.x = params.block_x + tile % params.blocks_x * 4;
+    bad.y = params.block_y + tile / params.blocks_x * 4;
+    for (int first = 0; first < wave.sample_count; first += FILM_SAMPLES) {
+        bad.sample = wave.first_sample + first;
+        add_samples(gathered, wave, first, min(FILM_SAMPLES, wave.sample_count - first),
+                    filter_values, params.filter_reach, of_film, bad);
+    }
 }

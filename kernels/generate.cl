@@ -4,6 +4,8 @@
 #include "device/path_state.h"
 #include "device/wave.h"
 
+#include "device/bad_sample.h"
+
 typedef struct {
     Real offset, weight;
 } FilterSample;
@@ -67,6 +69,10 @@ kernel void generate(KERNEL_PARAMETERS) {
         vec2 lens = v2(R(0.), R(0.));
         if (HAS(thin_lens)) lens = disk_uniform(uniform2(random.z, random.w));
         CameraRay ray = camera_ray(camera, film_position, lens);
+        // As mark_bad does, with what its alpha then says: 0, no bounce and the first of the
+        // faults.
+        Mask bad = valid & (nought3(ray.origin) + nought3(ray.direction) != R(0.));
+        weight = sel(bad, (Real)NAN, weight);
 
         int channels = result_field_count + params.aov_channels;
         for (int channel = 0; channel < channels; channel++)

@@ -5,6 +5,8 @@
 #include "device/light_table.h"
 #include "device/path_state.h"
 
+#include "device/bad_sample.h"
+
 /// The camera's path or a later vertex, one packet of it.
 typedef struct {
     vec3 origin, direction, throughput;
@@ -132,6 +134,9 @@ kernel void shade(KERNEL_PARAMETERS) {
         Primitive primitive = load_Primitive(primitives, v.primitive);
         SurfaceInteraction surface = surface_at(primitive, v, vertices);
 
+        Mask bad_hit = v.hit & (nought3(surface.p) + nought3(surface.ns) != v.t * R(0.));
+        v.hit = v.hit & !bad_hit;
+
         // ---- what is seen
         vec3 seen = splat3(R(0.));
         Mask covered = v.hit;
@@ -147,12 +152,16 @@ kernel void shade(KERNEL_PARAMETERS) {
                 if (params.sky_covers) covered = covered | sky;
             }
         }
+        Mask bad_emission = v.active & !v.active;
         if (HAS(emission) || depth == 0) {
+            vec3 gathered = mul3(v.throughput, seen);
+            bad_emission = v.active & (nought3(gathered) != R(0.));
             uint seen_bits = maskBits(v.active & (max_component(seen) != R(0.)));
-            if (seen_bits)
-                add_result3(results, stride, result_r, v.slot, mul3(v.throughput, seen), seen_bits);
+            if (seen_bits) add_result3(results, stride, result_r, v.slot, gathered, seen_bits);
         }
         if (depth == 0) scatter_add(RESULT(result_alpha), v.slot, R(1.), maskBits(covered));
+        mark_bad(results, stride, v.slot, bad_hit, fault_hit, depth);
+        mark_bad(results, stride, v.slot, bad_emission, fault_emission, depth);
 
         // ---- the material of the side that is looked at
         Mask need_material = v.hit;
@@ -165,7 +174,12 @@ kernel void shade(KERNEL_PARAMETERS) {
         // A side without material absorbs; AOVs still show the front's.
         Int shown_row = sel(material_row >= 0, material_row, primitive.material_front);
         Material material = load_Material(materials, sel(shown_row >= 0, shown_row, (Int)0));
-        if (HAS(aovs) && depth == 0) write_aovs(results, params, v, primitive, surface, material);
+        if (HAS(aovs) && depth == 0) {
+            Mask bad = nought3(material_reflectance(material)) + nought3(surface.ng) !=
+                       (surface.uv.x + surface.uv.y) * R(0.);
+            mark_bad(results, stride, v.slot, v.hit & bad, fault_aov, depth);
+            write_aovs(results, params, v, primitive, surface, material);
+        }
         if (depth + 1 >= params.max_depth) continue;
         Real side = R(1.);
         if (HAS(back_materials)) {
@@ -189,7 +203,7 @@ kernel void shade(KERNEL_PARAMETERS) {
                 sampler_draw(asUint(v.pixel), asUint(v.sample), bounce + dimension_emitter, seed);
             LightPick pick =
                 pick_light(light_nodes, surface.p, surface.ns, need_material, r.x, r.y);
-            Mask reached = need_material & (pick.pmf > R(0.));
+            Mask reached = need_material & !(pick.pmf <= R(0.));
             Light light =
                 light_picked_with(load_Light(lights, pick.row), sel(reached, pick.pmf, R(1.)));
             EmitterSample e = emitter_sample(light, surface.p, uniform2(r.z, r.w));
@@ -205,13 +219,18 @@ kernel void shade(KERNEL_PARAMETERS) {
                 weight = power_heuristic_inverse(inverse_hint, f.pdf);
             }
             vec3 contribution = scale3(mul3(mul3(v.throughput, f.f), e.weight), weight);
-            Mask lit = reached & (max_component(contribution) > R(0.));
+            Mask bad = reached & (nought3(contribution) != R(0.));
+            mark_bad(results, stride, v.slot, bad, fault_next_event, depth);
+            Mask lit = reached & (max_component(contribution) > R(0.)) & !bad;
             uint bits = maskBits(lit);
             if (bits) {
                 vec3 origin = leave_surface(surface.p, clearance, surface.ng, e.wi);
                 vec3 target = leave_surface(e.q, surface_clearance(e.q_error, e.q_normal),
                                             e.q_normal, neg3(e.wi));
                 vec3 to_light = sel3(e.distant, e.wi, sub3(target, origin));
+                bad = lit & (nought3(origin) + nought3(to_light) != R(0.));
+                mark_bad(results, stride, v.slot, bad, fault_next_event, depth);
+                bits = maskBits(lit & !bad);
                 int to = next_shadow;
                 SHADOW_PACK_REAL(ox, origin.x);
                 SHADOW_PACK_REAL(oy, origin.y);
@@ -236,7 +255,9 @@ kernel void shade(KERNEL_PARAMETERS) {
             BsdfSample b = bsdf_sample(material, wo, uniform2(r.x, r.y), uniform01(r.z));
             vec3 throughput = mul3(v.throughput, b.weight);
             Real eta_scale = v.eta_scale * b.eta;
-            Mask alive = need_material & (max_component(throughput) > R(0.));
+            Mask bad = need_material & (nought3(throughput) != R(0.));
+            mark_bad(results, stride, v.slot, bad, fault_bsdf, depth);
+            Mask alive = need_material & (max_component(throughput) > R(0.)) & !bad;
             if (HAS(russian_roulette) && depth + 1 >= params.rr_depth) {
                 Roulette roulette = russian_roulette(throughput, eta_scale, uniform01(r.w));
                 alive = alive & roulette.alive;
@@ -248,6 +269,9 @@ kernel void shade(KERNEL_PARAMETERS) {
                 wi.z = wi.z * side;
                 vec3 direction = to_world(frame, wi);
                 vec3 origin = leave_surface(surface.p, clearance, surface.ng, direction);
+                bad = alive & ((nought3(origin) + nought3(direction) != R(0.)) | (b.pdf != b.pdf));
+                mark_bad(results, stride, v.slot, bad, fault_bsdf, depth);
+                bits = maskBits(alive & !bad);
                 int to = next_path;
                 PATH_PACK_REAL(ox, origin.x);
                 PATH_PACK_REAL(oy, origin.y);

@@ -2,6 +2,7 @@
 #include "host/commands/render.h"
 
 #include "host/clock.h"
+#include "host/commands/bad_sample_warning.h"
 #include "host/commands/compile.h"
 #include "host/error.h"
 #include "host/image/exr.h"
@@ -89,10 +90,9 @@ int run_render(const RenderCommand& command) {
     RenderResult result = render_where_asked(command, scene, progress);
     result.report.load_seconds = load_seconds;
     add_metadata(scene, result.report, result.image);
-    if (result.report.non_finite_samples > 0)
-        progress.note(
-            fmt::format("warning: {} samples were not finite; they were left out of the image",
-                        result.report.non_finite_samples));
+    // Not a matter of progress: told when quiet, too.
+    bool bad = result.report.non_finite_samples > 0;
+    if (bad) fmt::print(stderr, "{}\n", bad_sample_warning(command, result.report));
 
     start = Clock::now();
     write_output(command.output, command, scene, result.image, progress);
@@ -101,7 +101,7 @@ int run_render(const RenderCommand& command) {
     if (!command.stats_file.empty())
         write_text_file(command.stats_file, to_json(result.report).dump(2) + '\n');
     progress.note("wrote " + command.output);
-    return static_cast<int>(ExitCode::ok);
+    return static_cast<int>(bad && command.strict ? ExitCode::internal_failure : ExitCode::ok);
 }
 
 Subcommand render_subcommand() {

@@ -25,7 +25,7 @@ struct RenderCommand {
     bool trace = false;
     int threads = 0; ///< 0: all
     bool next_event = true, energy_compensation = true;
-    bool force = false, quiet = false, allow_outside = false;
+    bool force = false, quiet = false, strict = false, allow_outside = false;
     RenderOptions options;
 };
 

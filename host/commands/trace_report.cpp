@@ -136,6 +136,14 @@ json vertex_json(const Scene& scene, const DeviceScene& flat, const TraceVertex&
     return out;
 }
 
+json left_out_json(const SampleTrace& trace) {
+    if (!trace.left_out) return nullptr;
+    int bounce = trace.left_out->bounce;
+    return {{"stage", trace.left_out->stage()},
+            {"fault", trace.left_out->fault_name()},
+            {"bounce", bounce < 0 ? json(nullptr) : json(bounce)}};
+}
+
 } // namespace
 
 json trace_json(const Scene& scene, const DeviceScene& flat, const SampleTrace& trace) {
@@ -152,6 +160,7 @@ json trace_json(const Scene& scene, const DeviceScene& flat, const SampleTrace& 
             {"radiance", triple(trace.radiance)},
             {"alpha", number(trace.alpha)},
             {"weight", number(trace.weight)},
+            {"left_out", left_out_json(trace)},
             {"first_not_finite_vertex",
              trace.first_not_finite < 0 ? json(nullptr) : json(trace.first_not_finite)}};
 }

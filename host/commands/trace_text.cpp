@@ -108,6 +108,14 @@ std::string vertex_text(const json& v, const json& first_not_finite) {
     return text;
 }
 
+std::string left_out_text(const json& fault) {
+    if (fault.is_null()) return "";
+    const json& bounce = fault["bounce"];
+    return fmt::format("left out of the image: not finite in {} ({}{})\n",
+                       fault["stage"].get<std::string>(), fault["fault"].get<std::string>(),
+                       bounce.is_null() ? "" : fmt::format(", bounce {}", bounce.get<int>()));
+}
+
 } // namespace
 
 std::string trace_text(const json& trace) {
@@ -120,8 +128,10 @@ std::string trace_text(const json& trace) {
                "the filter puts this sample beyond the edge of the film: it does not count\n";
     for (const json& v : trace["vertices"])
         text += vertex_text(v, trace["first_not_finite_vertex"]);
-    return text + fmt::format("sum: r, g, b {}, alpha {}, weight {}\n", triple(trace["radiance"]),
-                              plain(trace["alpha"]), plain(trace["weight"]));
+    return text +
+           fmt::format("sum: r, g, b {}, alpha {}, weight {}\n", triple(trace["radiance"]),
+                       plain(trace["alpha"]), plain(trace["weight"])) +
+           left_out_text(trace["left_out"]);
 }
 
 } // namespace parhelion

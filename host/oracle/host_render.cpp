@@ -101,6 +101,7 @@ void render_flat(const Scene& scene, const DeviceScene& flat, const RenderOption
     trace_image(launch, sizes, scene.sampler.samples_per_pixel, progress);
     result.report.render_seconds = seconds_since(start);
     add_counts(sum_statistics(memory), result.report);
+    result.report.bad_samples = first_bad_samples({memory.bad_samples});
     result.image = film_image(film_floats(std::move(memory.film)), sizes, scene, aovs, flat.frame);
 }
 

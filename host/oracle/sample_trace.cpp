@@ -112,8 +112,11 @@ void find_not_finite(TraceVertex& v) {
     check("ns", finite(v.notes.surface->ns));
     if (v.material < 0) return;
     check("light", finite(v.light));
-    if (v.goes_on) check("throughput after", finite(v.throughput_after));
-    if (v.notes.scattered) check("bsdf weight", finite(v.notes.scattered->weight));
+    if (!v.notes.scattered) return;
+    check("bsdf weight", finite(v.notes.scattered->weight));
+    // A path whose throughput is not finite has ended.
+    check("throughput after",
+          finite(v.goes_on ? v.throughput_after : times(v.throughput, v.notes.scattered->weight)));
 }
 
 /// One bounce; whether the path goes on.
@@ -141,6 +144,17 @@ bool trace_vertex(OnePath& path, const DeviceScene& scene, bool last, TraceVerte
     return v.goes_on;
 }
 
+/// What the film gets.
+void add_up(OnePath& path, const WaveMemory<float>& memory, SampleTrace& trace) {
+    trace.radiance = path.radiance();
+    trace.alpha = path.result(result_alpha), trace.weight = path.result(result_weight);
+    path.run(Stage::accumulate, 0);
+    for (const BadSample& bad : first_bad_samples({memory.bad_samples}))
+        trace.left_out = bad;
+    // The place of its alpha says what went wrong.
+    if (std::isnan(trace.weight)) trace.alpha = trace.weight;
+}
+
 } // namespace
 
 SampleTrace trace_sample(const Scene& scene, const DeviceScene& flat, int x, int y, int sample) {
@@ -163,8 +177,7 @@ SampleTrace trace_sample(const Scene& scene, const DeviceScene& flat, int x, int
         alive = trace_vertex(path, flat, last, v);
         if (!v.not_finite.empty() && trace.first_not_finite < 0) trace.first_not_finite = v.bounce;
     }
-    trace.radiance = path.radiance();
-    trace.alpha = path.result(result_alpha), trace.weight = path.result(result_weight);
+    add_up(path, memory, trace);
     return trace;
 }
 

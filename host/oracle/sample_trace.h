@@ -2,8 +2,10 @@
 #pragma once
 
 #include "host/oracle/shade_notes.h"
+#include "host/render/bad_samples.h"
 #include "host/scene/scene.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +34,9 @@ struct SampleTrace {
     bool on_film = true; ///< a wide filter puts some samples beyond the edge: those do not count
     std::vector<TraceVertex> vertices;
     Triple radiance{};
-    float alpha = 0, weight = 0;
-    int first_not_finite = -1; ///< vertex; -1: none
+    float alpha = 0, weight = 0;       ///< not finite if the sample is left out
+    std::optional<BadSample> left_out; ///< of the image, as the film's accounts have it
+    int first_not_finite = -1;         ///< vertex; -1: none
 };
 
 /// Traces sample `sample` of pixel (x, y) of the full film, with the kernels compiled as C++: the

@@ -30,7 +30,7 @@ struct WaveMemory {
           counts(2 * static_cast<std::size_t>(s.segments)),
           statistics(statistic_count *
                      static_cast<std::size_t>(std::max(s.segments, s.blocks_per_wave))),
-          film(2 * s.film_channels * s.film_stride()) {}
+          bad_samples(s.bad_sample_words()), film(2 * s.film_channels * s.film_stride()) {}
 };
 #undef WORK_MEMBER
 

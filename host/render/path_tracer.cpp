@@ -100,7 +100,12 @@ void add_counts(const std::array<std::uint64_t, statistic_count>& statistics,
     report.camera_rays = report.paths = statistics[statistic_camera_rays];
     report.bounce_rays = statistics[statistic_bounce_rays];
     report.shadow_rays = statistics[statistic_shadow_rays];
-    report.non_finite_samples = statistics[statistic_non_finite_samples];
+    for (int fault = 0; fault < fault_count; fault++) {
+        std::uint64_t samples = statistics[statistic_first_fault + fault];
+        report.non_finite_samples += samples;
+        if (samples > 0)
+            report.faults.push_back({fault_stages[fault], fault_names[fault], samples});
+    }
 }
 
 RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
@@ -144,6 +149,8 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     trace_image(pipeline, scene, sizes, params, next_event, progress);
     result.report.render_seconds = seconds_since(start);
     add_counts(pipeline.read_statistics(), result.report);
+    if (result.report.non_finite_samples > 0)
+        result.report.bad_samples = pipeline.read_bad_samples();
     result.report.stages = pipeline.stage_reports();
     result.report.device_pool_bytes = pipeline.pool_bytes();
     result.report.device_film_bytes = pipeline.film_bytes();

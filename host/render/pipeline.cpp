@@ -54,6 +54,13 @@ std::array<std::uint64_t, statistic_count> Pipeline::read_statistics() {
     return sums;
 }
 
+std::vector<BadSample> Pipeline::read_bad_samples() {
+    std::vector<std::vector<int>> of_streams;
+    for (WaveStream& stream : streams_)
+        of_streams.push_back(stream.read_bad_samples());
+    return first_bad_samples(of_streams);
+}
+
 std::vector<StageReport> Pipeline::stage_reports() const {
     std::vector<StageReport> reports = stages_.reports;
     for (const WaveStream& stream : streams_)
@@ -62,6 +69,13 @@ std::vector<StageReport> Pipeline::stage_reports() const {
             reports[i].launches += stream.stage_times()[i].launches;
         }
     return reports;
+}
+
+std::size_t Pipeline::film_bytes() const {
+    std::size_t bytes = film_.bytes();
+    for (const WaveStream& stream : streams_)
+        bytes += stream.bad_sample_bytes();
+    return bytes;
 }
 
 std::size_t Pipeline::pool_bytes() const {

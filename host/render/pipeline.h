@@ -2,6 +2,7 @@
 // waves.
 #pragma once
 
+#include "host/render/bad_samples.h"
 #include "host/render/wave_stream.h"
 
 namespace parhelion {
@@ -21,11 +22,13 @@ public:
     std::vector<float> read_film();
     /// Of all streams.
     std::array<std::uint64_t, statistic_count> read_statistics();
+    /// The first of each block of the film, in no order.
+    std::vector<BadSample> read_bad_samples();
     std::vector<StageReport> stage_reports() const;
     /// Of the process that compiled beside this one, bytes; 0: there was none.
     std::uint64_t compiler_peak_bytes() const { return stages_.beside_peak_bytes; }
     std::size_t pool_bytes() const;
-    std::size_t film_bytes() const { return film_.bytes(); }
+    std::size_t film_bytes() const;
 
 private:
     RenderDevice& device_;

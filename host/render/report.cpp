@@ -15,6 +15,28 @@ nlohmann::json to_json(const StageReport& s) {
             {"cached", s.cached},     {"features", s.features}};
 }
 
+nlohmann::json to_json(const FaultCount& f) {
+    return {{"stage", f.stage}, {"fault", f.fault}, {"samples", f.samples}};
+}
+
+nlohmann::json to_json(const BadSample& b) {
+    nlohmann::json json{{"pixel_x", b.x},
+                        {"pixel_y", b.y},
+                        {"sample", b.sample},
+                        {"stage", b.stage()},
+                        {"fault", b.fault_name()}};
+    if (b.bounce >= 0) json["bounce"] = b.bounce;
+    return json;
+}
+
+template<class T>
+nlohmann::json list(const std::vector<T>& values) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const T& value : values)
+        json.push_back(to_json(value));
+    return json;
+}
+
 double rate(std::uint64_t count, double seconds) {
     return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
 }
@@ -33,9 +55,6 @@ nlohmann::json to_json(const SceneFrame& frame) {
 }
 
 nlohmann::json to_json(const RenderReport& r) {
-    nlohmann::json stages = nlohmann::json::array();
-    for (const StageReport& s : r.stages)
-        stages.push_back(to_json(s));
     return {{"scene", r.scene_file},
             {"device", {{"name", r.device}, {"driver", r.driver}, {"lanes", r.lanes}}},
             {"image",
@@ -53,7 +72,9 @@ nlohmann::json to_json(const RenderReport& r) {
               {"render_seconds", r.render_seconds},
               {"write_seconds", r.write_seconds}}},
             {"frame", to_json(r.frame)},
-            {"stages", stages},
+            {"stages", list(r.stages)},
+            {"faults", list(r.faults)},
+            {"bad_samples", list(r.bad_samples)},
             {"counts",
              {{"paths", r.paths},
               {"camera_rays", r.camera_rays},

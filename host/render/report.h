@@ -1,6 +1,7 @@
 // What a render did and what it cost, for people and for scripts.
 #pragma once
 
+#include "host/render/bad_samples.h"
 #include "host/render/scene_frame.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -20,6 +21,12 @@ struct StageReport {
     std::vector<std::string> features; ///< what this stage's kernel was compiled with
 };
 
+/// A kind of fault that samples were left out for.
+struct FaultCount {
+    std::string stage, fault; ///< e.g. "shade", "next_event"
+    std::uint64_t samples = 0;
+};
+
 struct RenderReport {
     std::string scene_file, device, driver;
     int lanes = 1, width = 0, height = 0, samples_per_pixel = 0;
@@ -31,6 +38,8 @@ struct RenderReport {
     std::vector<StageReport> stages;
     std::uint64_t paths = 0, camera_rays = 0, bounce_rays = 0, shadow_rays = 0,
                   non_finite_samples = 0;
+    std::vector<FaultCount> faults;     ///< of those samples; kinds that there are none of left out
+    std::vector<BadSample> bad_samples; ///< a few of them, in the order of samples and pixels
     std::uint64_t primitives = 0, lights = 0;
     std::uint64_t device_scene_bytes = 0, device_pool_bytes = 0, device_film_bytes = 0,
                   host_peak_bytes = 0,

@@ -71,11 +71,13 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
     work_.results = {context, "results", s.result_channels() * s.result_stride()};
     work_.counts = {context, "counts", 2 * static_cast<std::size_t>(s.segments)};
     work_.statistics = {context, "statistics", statistic_count * counted};
+    work_.bad_samples = {context, "bad_samples", s.bad_sample_words()};
     // Leftovers behind the last path are read (and ignored): they must be numbers the first time
     // too.
     work_.path_state.fill_zero(queue_);
     work_.counts.fill_zero(queue_);
     work_.statistics.fill_zero(queue_);
+    work_.bad_samples.fill_zero(queue_);
     counts_.resize(work_.counts.count());
 }
 
@@ -120,6 +122,12 @@ std::array<std::uint64_t, statistic_count> WaveStream::read_statistics() {
     for (std::size_t i = 0; i < values.size(); i++)
         sums[i % statistic_count] += values[i];
     return sums;
+}
+
+std::vector<int> WaveStream::read_bad_samples() {
+    std::vector<int> words(work_.bad_samples.count());
+    work_.bad_samples.read(queue_, words.data());
+    return words;
 }
 
 void WaveStream::collect_times() {

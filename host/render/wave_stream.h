@@ -44,6 +44,7 @@ struct WorkSizes {
 
     /// Two more than the film's where samples are splatted: their offsets in their pixels.
     std::size_t result_channels() const { return film_channels + (window.reach > 0 ? 2 : 0); }
+    std::size_t bad_sample_words() const { return bad_sample_field_count * window.tiles(); }
     std::size_t result_stride() const { return odd_lines(path_capacity); }
     std::size_t film_stride() const { return odd_lines(window.tiles() * window.tile_cells()); }
     std::size_t state_stride() const {
@@ -78,11 +79,15 @@ public:
     /// Live paths and shadow rays of all segments after the last launch; waits for it.
     std::pair<std::size_t, std::size_t> read_counts();
     std::array<std::uint64_t, statistic_count> read_statistics();
+    /// BAD_SAMPLE_FIELDS a block of the film.
+    std::vector<int> read_bad_samples();
     /// Adds what each stage took since the last call; waits for the device.
     void collect_times();
 
     const std::array<StageTime, stage_count>& stage_times() const { return times_; }
-    std::size_t pool_bytes() const { return work_.bytes(); }
+    /// The same for any resolution, but for bad_sample_bytes.
+    std::size_t pool_bytes() const { return work_.bytes() - bad_sample_bytes(); }
+    std::size_t bad_sample_bytes() const { return work_.bad_samples.bytes(); }
 
 private:
     cl::CommandQueue queue_;

@@ -149,7 +149,7 @@ void Traversal::run(cl::Kernel kernel, const Sizes& s, const Buffer<float>& path
     const Buffer<BvhLine>& bvh_leaves = leaves_;
     // Not read by these kernels.
     Buffer<int> primitives, vertices, materials, lights, light_nodes, light_leaves, energy_tables,
-        filter_table, filter_values, film;
+        filter_table, filter_values, bad_samples, film;
     RenderParams params{};
     params.state_stride = params.result_stride = static_cast<int>(s.stride());
     params.segment_size = params.segment_stride = segment;

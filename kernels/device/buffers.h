@@ -24,12 +24,13 @@
 //   results       RESULT_FIELDS + AOV channels, x result_stride: what each path slot has gathered;
 //                 if HAS(filter_splatting), two more: its offset from the centre of its pixel
 //   counts        2 a segment: live paths, shadow rays
-//   statistics    STATISTICS a segment
+//   statistics    STATISTICS and FAULTS a segment
+//   bad_samples   BAD_SAMPLE_FIELDS a block of the film: its first sample that was not finite
 //   film          2 floats (high and low part of a sum) x channels x film_stride; a channel holds
 //                 a tile a block
 #define WAVE_BUFFERS(X)                                                                            \
     X(float, path_state) X(float, shadow_state) X(float, results)                                  \
-    X(int, counts) X(ulong, statistics)
+    X(int, counts) X(ulong, statistics) X(int, bad_samples)
 #define WORK_BUFFERS(X) WAVE_BUFFERS(X) X(float, film)
 
 // One path: ray (t: the end of the ray, then the distance of the hit), throughput, density of its direction, product of the
@@ -54,7 +55,17 @@
 // of g (x - mean)^2).
 #define SPREAD_CHANNELS(X) X(weight) X(mean_r) X(mean_g) X(mean_b) X(spread_r) X(spread_g) X(spread_b)
 
-#define STATISTICS(X) X(camera_rays) X(bounce_rays) X(shadow_rays) X(non_finite_samples)
+// What can go wrong with a sample, and the stage that finds it: numbers that are not finite in its camera ray, where a ray has
+// hit, its AOVs, what it sees, what it gets from a light, its next direction and throughput, and the sum of all it has gathered.
+#define FAULTS(X)                                                                                  \
+    X(camera_ray, generate) X(hit, shade) X(aov, shade) X(emission, shade) X(next_event, shade)    \
+    X(bsdf, shade) X(sum, accumulate)
+
+// Beside these a count for each fault.
+#define STATISTICS(X) X(camera_rays) X(bounce_rays) X(shadow_rays)
+
+// Pixels count from the top left corner of the film; bounce -1: unknown.
+#define BAD_SAMPLE_FIELDS(X) X(known) X(sample) X(x) X(y) X(fault) X(bounce)
 
 #define PATH_ENUM(type, name) path_##name,
 enum PathField { PATH_FIELDS(PATH_ENUM) path_field_count };
@@ -65,7 +76,14 @@ enum ResultField { RESULT_FIELDS(RESULT_ENUM) result_field_count };
 #define SPREAD_ENUM(name) spread_##name,
 enum SpreadChannel { SPREAD_CHANNELS(SPREAD_ENUM) spread_channel_count };
 #define STATISTIC_ENUM(name) statistic_##name,
-enum Statistic { STATISTICS(STATISTIC_ENUM) statistic_count };
+#define FAULT_ENUM(name, stage) fault_##name,
+enum Fault { FAULTS(FAULT_ENUM) fault_count };
+enum Statistic {
+    STATISTICS(STATISTIC_ENUM) statistic_first_fault, // a count for each Fault
+    statistic_count = statistic_first_fault + fault_count
+};
+#define BAD_SAMPLE_ENUM(name) bad_sample_##name,
+enum BadSampleField { BAD_SAMPLE_FIELDS(BAD_SAMPLE_ENUM) bad_sample_field_count };
 
 // A segment has this many spare entries behind it where lanes are many: a packed store overwrites them.
 #define SEGMENT_PADDING 16

@@ -38,6 +38,7 @@ typedef struct {
     uint good[FILM_SAMPLES]; // which lanes' samples are finite
     Real weight[FILM_SAMPLES];
     Real radiance[3][FILM_SAMPLES];
+    uint bad; // lanes with a sample that is not
     int count;
 } SampleGroup;
 
@@ -45,14 +46,17 @@ FN SampleGroup sample_group(BlockResults block, WaveParams wave, int part, int f
     SampleGroup g;
     Real none = R(0.);
     g.count = count;
+    g.bad = 0;
     for (int n = 0; n < count; n++) {
         Int slot = part_slots(wave, part, first + n);
         vec3 radiance = v3(block_result(block, result_r, slot), block_result(block, result_g, slot),
                            block_result(block, result_b, slot));
-        Mask good = finite3(radiance);
+        Real weight = block_result(block, result_weight, slot);
+        Mask good = finite3(radiance) & finiteR(weight);
         g.slot[n] = slot;
         g.good[n] = maskBits(good);
-        g.weight[n] = sel(good, block_result(block, result_weight, slot), none);
+        g.bad |= maskBits(!good);
+        g.weight[n] = sel(good, weight, none);
         g.radiance[0][n] = sel(good, radiance.x, none);
         g.radiance[1][n] = sel(good, radiance.y, none);
         g.radiance[2][n] = sel(good, radiance.z, none);
@@ -66,13 +70,6 @@ FN Real group_value(BlockResults block, const SampleGroup* g, int channel, int n
     if (channel == result_weight) return R(1.);
     if (channel >= block.squares) return square(g->radiance[channel - block.squares][n]);
     return sel(lanesOf(g->good[n]), block_result(block, channel, g->slot[n]), R(0.));
-}
-
-FN uint dropped_samples(const SampleGroup* g) {
-    uint dropped = 0;
-    for (int n = 0; n < g->count; n++)
-        dropped += LANES - popcount(g->good[n]);
-    return dropped;
 }
 
 /// Adds a group to the pixels its samples lie in.

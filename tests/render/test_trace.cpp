@@ -107,14 +107,14 @@ TEST_CASE("The trace names the vertex where a sample stops being finite", "[rend
     int found = 0;
     for (int x = 0; x < scene.film.width; x++) {
         SampleTrace trace = trace_sample(scene, flat, x, 28, 0);
-        bool finite = std::isfinite(trace.radiance[0]) && std::isfinite(trace.radiance[1]) &&
-                      std::isfinite(trace.radiance[2]);
-        if (finite) continue;
+        if (!trace.left_out) continue;
         found++;
         REQUIRE(trace.first_not_finite >= 0);
+        CHECK(trace.left_out->bounce == trace.first_not_finite);
         nlohmann::json json = trace_json(scene, flat, trace);
         CHECK(json["first_not_finite_vertex"] == trace.first_not_finite);
         CHECK(trace_text(json).find("here for the first time") != std::string::npos);
+        CHECK(trace_text(json).find("left out of the image") != std::string::npos);
     }
     CHECK(found > 0);
 }
