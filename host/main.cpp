@@ -25,10 +25,11 @@ int fail(ExitCode code, const char* what) {
 CommandLine command_line() {
     return {
         .summary = "Parhelion: a physically based renderer for the command line, on OpenCL",
-        .footer = "Exit codes: 0 done, 1 images differ (compare) or a check does not hold "
-                  "(stress), 2 unusable input, 3 device "
-                  "failure, 4 internal failure.\n"
-                  "Each subcommand has its own --help with examples.",
+        .footer =
+            "Exit codes: 0 done, 1 images differ (compare), a check does not hold (stress) or "
+            "a sample was not finite (render --strict), 2 unusable input, 3 device failure, "
+            "4 internal failure.\n"
+            "Each subcommand has its own --help with examples.",
         .version = version_text,
         .subcommands = {render_subcommand(), compare_subcommand(), info_subcommand(),
                         compile_subcommand(), devices_subcommand(), stress_subcommand()},

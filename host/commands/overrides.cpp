@@ -1,5 +1,6 @@
 // Command-line values that replace the scene's.
 #include "host/commands/render.h"
+#include "host/render/filter_table.h"
 
 #include <fmt/format.h>
 
@@ -122,9 +123,12 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
 
 std::array<int, 2> parse_pixel(const std::string& text, const Film& film) {
     std::array<int, 2> pixel = parse_integers<2>("--pixel", text, ',', "X,Y, e.g. 12,34");
-    if (pixel[0] < 0 || pixel[1] < 0 || pixel[0] >= film.width || pixel[1] >= film.height)
-        throw InputError(fmt::format("--pixel '{}': must lie inside the film of {}x{} pixels", text,
-                                     film.width, film.height));
+    int border = film.sample_border ? filter_reach(film) : 0;
+    if (pixel[0] < -border || pixel[1] < -border || pixel[0] >= film.width + border ||
+        pixel[1] >= film.height + border)
+        throw InputError(fmt::format("--pixel '{}': must lie inside the film of {}x{} pixels{}",
+                                     text, film.width, film.height,
+                                     border ? fmt::format(" and its border of {}", border) : ""));
     return pixel;
 }
 

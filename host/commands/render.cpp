@@ -101,7 +101,7 @@ int run_render(const RenderCommand& command) {
     if (!command.stats_file.empty())
         write_text_file(command.stats_file, to_json(result.report).dump(2) + '\n');
     progress.note("wrote " + command.output);
-    return static_cast<int>(bad && command.strict ? ExitCode::internal_failure : ExitCode::ok);
+    return static_cast<int>(bad && command.strict ? ExitCode::different : ExitCode::ok);
 }
 
 Subcommand render_subcommand() {

@@ -20,7 +20,7 @@ std::vector<Option> image_options(RenderCommand& c) {
         {"--stats", &c.stats_file, "Write times, counts and memory as JSON"},
         {"--force", &c.force, "Overwrite the image if it exists"},
         {"--strict", &c.strict,
-         "Exit code 4 if a sample was not finite; the image, without it, is written all the same"},
+         "Exit code 1 if a sample was not finite; the image, without it, is written all the same"},
         {"--precision", &c.precision,
          "single, on the device (the default); double, the same kernels on the host: slow, to see "
          "what rounding does"},

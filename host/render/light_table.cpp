@@ -2,9 +2,11 @@
 // power.
 #include "host/render/light_table.h"
 
+#include "host/error.h"
 #include "host/render/light_bounds.h"
 #include "host/render/parallelograms.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -194,6 +196,17 @@ double scene_radius(std::span<const PrimitiveRecord> primitives) {
     return primitives.empty() || radius == 0.0 ? 1.0 : radius;
 }
 
+/// Intensities grow with the square of the scene's unit: what a scene file can say may be more than
+/// single precision holds.
+void check_range(const Row& row, const std::string& file) {
+    for (float value : {row.light.r, row.light.g, row.light.b})
+        if (std::isinf(value) && std::isfinite(row.power))
+            throw InputError(fmt::format(
+                "{}: a light of power {:.3g} in the unit that the scene is rendered in is too "
+                "bright for single precision (accepted: radiance and intensity up to {:.3g} there)",
+                file, row.power, std::numeric_limits<float>::max()));
+}
+
 std::vector<Row> collect_rows(const Scene& scene, const DeviceScene& device) {
     std::vector<Row> rows;
     int first = 0;
@@ -212,6 +225,8 @@ std::vector<Row> collect_rows(const Scene& scene, const DeviceScene& device) {
     for (const Emitter& emitter : scene.emitters)
         rows.push_back(std::visit([&](const auto& e) { return emitter_row(e, around); }, emitter));
     std::erase_if(rows, [](const Row& row) { return !(row.power > 0.0); });
+    for (const Row& row : rows)
+        check_range(row, scene.file);
     return rows;
 }
 
@@ -220,10 +235,16 @@ std::vector<Row> collect_rows(const Scene& scene, const DeviceScene& device) {
 void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
     std::vector<Row> rows = collect_rows(scene, out);
     double total = 0.0;
+    for (const Row& row : rows)
+        total += row.power;
+    // Only ratios of powers count. In units of a power of two near their sum, which changes no bit,
+    // they are single-precision numbers however bright the lights are.
+    int unit = rows.empty() ? 0 : std::ilogb(total);
     std::vector<LightBounds> bounds;
     for (const Row& row : rows) {
-        total += row.power;
-        bounds.push_back(light_bounds(row.light, row.area, row.power));
+        LightBounds b = light_bounds(row.light, row.area, row.power);
+        b.power = std::scalbn(b.power, -unit), b.intensity = std::scalbn(b.intensity, -unit);
+        bounds.push_back(b);
     }
     for (std::size_t i = 0; i < rows.size(); i++) {
         Row& row = rows[i];

@@ -107,7 +107,7 @@ TEST_CASE("Bad samples are told apart by what went wrong", "[render]") {
         scene.integrator.emitter_samples = false;
     }
     SECTION("a camera nowhere") {
-        scene.camera.to_world[3][1] = none;
+        scene.camera.to_world[2][0] = none;
         fault = "camera_ray";
     }
     SECTION("a throughput") {

@@ -123,6 +123,27 @@ TEST_CASE("Light tree: by power every light has its share of it, everywhere") {
         CHECK(pmf[row] == Approx(scene.lights[row].pmf).epsilon(1e-4));
 }
 
+TEST_CASE("Light tree: lights of any brightness have their share") {
+    for (double brightness : {1e-44, 1e-38, 1e30}) {
+        Scene scene = many_lights_scene(1, false);
+        scene.emitters = {PointEmitter{{0, 3, 1}, Rgb(brightness)},
+                          PointEmitter{{0, 3, -1}, Rgb(brightness)}};
+        scene.shapes.pop_back(); // the lamp
+        DeviceScene device = make_device_scene(scene);
+        std::vector<double> pmf =
+            probabilities(device, in_frame(device, {0, 0, 0}), {0, 1, 0}, false);
+        CHECK(pmf == std::vector{0.5, 0.5});
+    }
+}
+
+TEST_CASE("Light table: a light too bright for single precision is refused") {
+    Scene scene = many_lights_scene(1, false);
+    scene.emitters = {PointEmitter{{0, 3, 1}, Rgb(3e38)}};
+    CHECK_THROWS_WITH(make_device_scene(scene),
+                      Catch::Contains("made by the test: a light of power") &&
+                          Catch::Contains("accepted: radiance and intensity up to 3.4e+38"));
+}
+
 TEST_CASE("Light tree: a sky keeps its share of the power whatever is near") {
     DeviceScene scene = make_device_scene(many_lights_scene(100, true));
     std::vector<double> pmf = probabilities(scene, in_frame(scene, {1, 0.5, 3}), {0, 1, 0}, false);
