@@ -68,6 +68,7 @@ RenderResult render_where_asked(const RenderCommand& command, const Scene& scene
 int run_render(const RenderCommand& command) {
     if (command.trace) return run_trace(command);
     check_output(command.output, command.force);
+    if (!command.stats_file.empty()) check_output_file(command.stats_file, command.force);
     check_command(command);
     limit_threads(command.threads);
     std::optional<tbb::global_control> host_threads;

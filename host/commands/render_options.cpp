@@ -18,7 +18,7 @@ std::vector<Option> image_options(RenderCommand& c) {
         {"--seed", &c.seed, "Seed of the random numbers"},
         {"--exposure", &c.exposure, "Stops of exposure for .png"},
         {"--stats", &c.stats_file, "Write times, counts and memory as JSON"},
-        {"--force", &c.force, "Overwrite the image if it exists"},
+        {"--force", &c.force, "Overwrite files that exist"},
         {"--strict", &c.strict,
          "Exit code 1 if a sample was not finite; the image, without it, is written all the same"},
         {"--precision", &c.precision,

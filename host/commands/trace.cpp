@@ -18,6 +18,7 @@ void check_trace(const RenderCommand& command) {
     if (command.output != RenderCommand{}.output || command.exposure || !command.stats_file.empty())
         throw InputError("--trace: renders no image, so --output, --exposure and --stats are of no "
                          "use with it");
+    if (!command.json_file.empty()) check_output_file(command.json_file, command.force);
 }
 
 int checked_sample(int sample, int samples_per_pixel) {

@@ -133,4 +133,10 @@ TEST_CASE("What cannot be traced is refused in one line", "[render]") {
     command.sample = 0, command.output = "image.exr";
     CHECK_THROWS_WITH(run_render(command), "--trace: renders no image, so --output, --exposure and "
                                            "--stats are of no use with it");
+    command.output = RenderCommand{}.output, command.json_file = command.scene_file;
+    std::string exists = command.scene_file + ": exists; give --force to replace it";
+    CHECK_THROWS_WITH(run_render(command), exists);
+    command.trace = false, command.stats_file = command.json_file;
+    command.output = "no-such-image.exr";
+    CHECK_THROWS_WITH(run_render(command), exists);
 }
