@@ -120,6 +120,12 @@ FN void write_aovs(global Scalar* results, RenderParams params, PathVertex v, Pr
     AOV1(prim_index, 0, toReal(p.index_in_shape))
 }
 
+/// The direction of w, given in the frame of a surface that was turned over where side is -1.
+FN vec3 to_world_from(ShadingFrame frame, vec3 w, Real side) {
+    w.z = w.z * side;
+    return to_world(frame, w);
+}
+
 /// Reads: path state, scene. Writes: results (emission, alpha, AOVs at the first vertex), counts,
 /// path and shadow state. Pushes: a shadow ray for each vertex with light to receive, a path for
 /// each that goes on; both packed in place.
@@ -165,7 +171,15 @@ kernel void shade(KERNEL_PARAMETERS) {
 
         // ---- the material of the side that is looked at
         Mask need_material = v.hit;
-        ShadingFrame frame = surface_frame(surface);
+        SurfaceInteraction shaded = surface;
+        ShadingSide sides;
+        sides.n = surface.ns;
+        sides.g = surface.ng;
+        if (HAS(consistent_normals)) {
+            sides = shading_side(surface.ns, surface.ng, neg3(v.direction));
+            shaded.ns = sides.n;
+        }
+        ShadingFrame frame = surface_frame(shaded);
         vec3 wo = to_local(frame, neg3(v.direction));
         Int material_row = primitive.material_front;
         if (HAS(back_materials))
@@ -201,8 +215,7 @@ kernel void shade(KERNEL_PARAMETERS) {
         if (HAS(next_event)) {
             Random4 r =
                 sampler_draw(asUint(v.pixel), asUint(v.sample), bounce + dimension_emitter, seed);
-            LightPick pick =
-                pick_light(light_nodes, surface.p, surface.ns, need_material, r.x, r.y);
+            LightPick pick = pick_light(light_nodes, surface.p, shaded.ns, need_material, r.x, r.y);
             Mask reached = need_material & !(pick.pmf <= R(0.));
             Light light =
                 light_picked_with(load_Light(lights, pick.row), sel(reached, pick.pmf, R(1.)));
@@ -218,6 +231,7 @@ kernel void shade(KERNEL_PARAMETERS) {
                     inverse_hint = e.inverse_pdf * (pick.pmf / sel(reached, pick.pmf_hint, R(1.)));
                 weight = power_heuristic_inverse(inverse_hint, f.pdf);
             }
+            if (HAS(consistent_normals)) weight = weight * counted_share(sides, material, e.wi);
             vec3 contribution = scale3(mul3(mul3(v.throughput, f.f), e.weight), weight);
             Mask bad = reached & (nought3(contribution) != R(0.));
             mark_bad(results, stride, v.slot, bad, fault_next_event, depth);
@@ -254,6 +268,10 @@ kernel void shade(KERNEL_PARAMETERS) {
                 sampler_draw(asUint(v.pixel), asUint(v.sample), bounce + dimension_bsdf, seed);
             BsdfSample b = bsdf_sample(material, wo, uniform2(r.x, r.y), uniform01(r.z));
             vec3 throughput = mul3(v.throughput, b.weight);
+            if (HAS(consistent_normals)) {
+                vec3 direction = to_world_from(frame, b.wi, side);
+                throughput = scale3(throughput, counted_share(sides, material, direction));
+            }
             Real eta_scale = v.eta_scale * b.eta;
             Mask bad = need_material & (nought3(throughput) != R(0.));
             mark_bad(results, stride, v.slot, bad, fault_bsdf, depth);
@@ -265,9 +283,7 @@ kernel void shade(KERNEL_PARAMETERS) {
             }
             uint bits = maskBits(alive);
             if (bits) {
-                vec3 wi = b.wi;
-                wi.z = wi.z * side;
-                vec3 direction = to_world(frame, wi);
+                vec3 direction = to_world_from(frame, b.wi, side);
                 vec3 origin = leave_surface(surface.p, clearance, surface.ng, direction);
                 bad = alive & ((nought3(origin) + nought3(direction) != R(0.)) | (b.pdf != b.pdf));
                 mark_bad(results, stride, v.slot, bad, fault_bsdf, depth);

@@ -11,7 +11,7 @@ def render(context, scene, *, spp, size=512, threads=1, seed=0, options=(), envi
     image = output or context.scratch / "ours.exr"
     stats = image.with_suffix(".json")
     done = run([context.program, "render", scene, "-o", image, "--stats", stats, "--force", "--quiet", "--allow-outside",
-                "--no-energy-compensation",  # lobes of single scattering, as the others have them
+                "--no-energy-compensation", "--shading-normals", "raw",  # as the others have them
                 "--size", f"{size}x{size}", "--spp", spp, "--threads", threads, "--seed", seed, *options], environment)
     return {**read_json(stats), "process_seconds": done.seconds, "peak_bytes": done.peak_bytes, "image": image}
 

@@ -44,6 +44,7 @@ std::string trace_command(const RenderCommand& c, const BadSample& bad) {
     add(text, "--max-depth", c.max_depth);
     add(text, "--rr-depth", c.rr_depth);
     if (!c.next_event) text += " --no-next-event";
+    add(text, "--shading-normals", c.shading_normals);
     if (!c.energy_compensation) text += " --no-energy-compensation";
     if (!c.aovs.empty()) text += " --aov " + quoted(fmt::format("{}", fmt::join(c.aovs, ",")));
     if (c.allow_outside) text += " --allow-outside";

@@ -27,6 +27,9 @@ constexpr std::array patterns{SAMPLE_PATTERNS(NAMED_PATTERN)};
 #define NAMED_METHOD(name) std::pair{std::string_view(#name), FilterMethod::name},
 constexpr std::array filter_methods{FILTER_METHODS(NAMED_METHOD)};
 
+#define NAMED_NORMALS(name) std::pair{std::string_view(#name), ShadingNormals::name},
+constexpr std::array shading_normals{SHADING_NORMALS(NAMED_NORMALS)};
+
 /// Integers separated by `separator`; fewer or more than N, or anything else, is an error that
 /// shows the form.
 template<std::size_t N>
@@ -116,6 +119,9 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (command.rr_depth) scene.integrator.rr_depth = at_least("--rr-depth", *command.rr_depth, 1);
     if (command.seed) scene.sampler.seed = *command.seed;
     if (!command.next_event) scene.integrator.emitter_samples = false;
+    if (command.shading_normals)
+        scene.integrator.shading_normals =
+            named("--shading-normals", *command.shading_normals, shading_normals);
     if (!command.energy_compensation) leave_out_energy_compensation(scene);
     for (const std::string& name : command.aovs)
         scene.integrator.aovs.push_back(aov_request(name));

@@ -16,7 +16,8 @@ struct RenderCommand {
     std::string scene_file, output = "out.exr", stats_file, json_file, device;
     std::vector<std::string> definitions; ///< name=value
     std::vector<std::string> aovs;
-    std::optional<std::string> integrator, size, crop, sampler, filter_method, precision;
+    std::optional<std::string> integrator, size, crop, sampler, filter_method, precision,
+        shading_normals;
     std::optional<int> samples, max_depth, rr_depth;
     std::optional<std::uint32_t> seed;
     std::optional<double> exposure;

@@ -77,6 +77,9 @@ std::vector<Option> kernel_options(RenderCommand& c) {
          "Longest path in edges: 1 emitters only, 2 direct light, -1 no limit"},
         {"--rr-depth", &c.rr_depth, "Russian roulette from this many vertices on"},
         {"!--no-next-event", &c.next_event, "Do not sample emitters"},
+        {"--shading-normals", &c.shading_normals,
+         "consistent (smooth meshes get no light from below their geometry, the default) or raw "
+         "(interpolated normals as they are, as in Mitsuba 3)"},
         {"!--no-energy-compensation", &c.energy_compensation, energy_compensation_help},
         {"--sampler", &c.sampler,
          "sobol (a pattern over the samples of a pixel, the default) or independent"},

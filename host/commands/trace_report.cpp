@@ -70,6 +70,7 @@ json light_json(const Scene& scene, const DeviceScene& flat, const TraceVertex& 
             {"bsdf", triple(n.towards_light->f)},
             {"bsdf_pdf", number(n.towards_light->pdf)},
             {"mis_weight", number(n.light_weight.value_or(1.f))},
+            {"geometry_share", number(n.light_share.value_or(1.f))},
             {"contribution", triple(v.light)},
             {"shadow_ray", v.shadow_ray},
             {"blocked", v.blocked}};
@@ -81,6 +82,7 @@ json scattering_json(const TraceVertex& v) {
     return {{"wi", triple(bsdf.wi)},
             {"pdf", number(bsdf.pdf)},
             {"weight", triple(bsdf.weight)},
+            {"geometry_share", number(v.notes.scattered_share.value_or(1.f))},
             {"eta", number(bsdf.eta)}};
 }
 

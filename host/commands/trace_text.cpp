@@ -37,20 +37,26 @@ std::string fate(const json& e) {
     return e["blocked"].get<bool>() ? "blocked" : "arrives";
 }
 
+/// Said where shading that keeps to the geometry takes something away.
+std::string share_text(const json& v) {
+    const json& share = v["geometry_share"];
+    return share == 1.f ? "" : fmt::format(", of which the geometry lets {} count", plain(share));
+}
+
 std::string next_event_text(const json& e) {
     std::string light = fmt::format("{} {}", e["kind"].get<std::string>(), e["row"].get<int>());
     if (!e["shape"].is_null()) light += " of shape " + named(e["shape"], "plugin");
     return line("light", fmt::format("{}, picked with {}, towards {} with density {}", light,
                                      plain(e["pmf"]), triple(e["direction"]), plain(e["pdf"]))) +
-           line("", fmt::format("bsdf {} of density {}, weight {}, brings {}: {}",
+           line("", fmt::format("bsdf {} of density {}, weight {}{}, brings {}: {}",
                                 triple(e["bsdf"]), plain(e["bsdf_pdf"]), plain(e["mis_weight"]),
-                                triple(e["contribution"]), fate(e)));
+                                share_text(e), triple(e["contribution"]), fate(e)));
 }
 
 std::string scattering_text(const json& s) {
     return line("scattering",
-                fmt::format("local wi {} with density {}, weight {}, eta {}", triple(s["wi"]),
-                            plain(s["pdf"]), triple(s["weight"]), plain(s["eta"])));
+                fmt::format("local wi {} with density {}, weight {}{}, eta {}", triple(s["wi"]),
+                            plain(s["pdf"]), triple(s["weight"]), share_text(s), plain(s["eta"])));
 }
 
 std::string roulette_text(const json& r) {

@@ -56,6 +56,11 @@ struct Kernels : WorkItem {
         notes.roulette = {r.alive, r.scale};
         return r;
     }
+    /// Asked for the direction to the light, then for the one to go on in.
+    Real note_share(Real share) {
+        (notes.scattered ? notes.scattered_share : notes.light_share) = share;
+        return share;
+    }
     static Real note_weight(Real weight, std::optional<float>& to) {
         to = weight;
         return weight;
@@ -75,6 +80,7 @@ struct Kernels : WorkItem {
 #define bsdf_eval(...) note(bsdf_eval(__VA_ARGS__))
 #define power_heuristic_inverse(...)                                                               \
     note_weight(power_heuristic_inverse(__VA_ARGS__), notes.light_weight)
+#define counted_share(...) note_share(counted_share(__VA_ARGS__))
 #define bsdf_sample(...) note(bsdf_sample(__VA_ARGS__))
 #define russian_roulette(...) note(russian_roulette(__VA_ARGS__))
 #define sampler_draw(...) note_draw(__VA_ARGS__)

@@ -92,8 +92,8 @@ void read_material(const DeviceScene& scene, int number, TraceVertex& v) {
 Triple unsent_light(const TraceVertex& v) {
     const ShadeNotes& n = v.notes;
     if (!n.light || !n.towards_light) return {};
-    return times(times(times(v.throughput, n.towards_light->f), n.light->weight),
-                 n.light_weight.value_or(1.f));
+    float weight = n.light_weight.value_or(1.f) * n.light_share.value_or(1.f);
+    return times(times(times(v.throughput, n.towards_light->f), n.light->weight), weight);
 }
 
 /// Names what is not finite, but for densities: those of delta lobes are infinite.

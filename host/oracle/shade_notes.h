@@ -55,7 +55,9 @@ struct ShadeNotes {
     std::optional<LightSample> light;
     std::optional<Evaluated> towards_light;
     std::optional<float> light_weight;
+    std::optional<float> light_share; ///< what shading that keeps to the geometry lets count
     std::optional<Scattered> scattered;
+    std::optional<float> scattered_share;
     std::optional<Survival> roulette;
     std::vector<Draw> draws;
 };

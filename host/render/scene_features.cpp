@@ -147,9 +147,12 @@ void add_transport(const Integrator& integrator, FeatureSet& set) {
 }
 
 /// After what scatters at all is known.
-void add_energy_compensation(const Scene& scene, FeatureSet& set) {
+void add_surface_features(const Scene& scene, FeatureSet& set) {
     auto wants = [](const Material& m) { return wants_energy_compensation(m.bsdf); };
     bool lit = set.mask & (feature_bit(feature_next_event) | feature_bit(feature_scattering));
+    bool smooth = set.mask & feature_bit(feature_vertex_normals);
+    set.add_if(lit && smooth && scene.integrator.shading_normals == ShadingNormals::consistent,
+               feature_consistent_normals);
     set.add_if(lit && std::any_of(scene.materials.begin(), scene.materials.end(), wants),
                feature_energy_compensation);
 }
@@ -179,7 +182,7 @@ std::uint64_t scene_features(const Scene& scene, const SceneFrame& frame) {
         set.add(is_film_aov(aov) ? feature_variance : feature_aovs);
     if (integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct)
         add_transport(integrator, set);
-    add_energy_compensation(scene, set);
+    add_surface_features(scene, set);
     return set.mask;
 }
 

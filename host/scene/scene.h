@@ -225,12 +225,19 @@ struct AovRequest {
     SourceLocation location;
 };
 
+/// `consistent`: shading of smooth meshes keeps to their geometry
+/// (kernels/shared/shading_normal.h); `raw`: interpolated normals are taken as they are.
+#define SHADING_NORMALS(X) X(consistent) X(raw)
+#define SHADING_NORMALS_ENUM(name) name,
+enum class ShadingNormals { SHADING_NORMALS(SHADING_NORMALS_ENUM) };
+
 struct Integrator {
     IntegratorKind kind = IntegratorKind::path;
     int max_depth =
         -1; ///< in edges from the camera: 1 shows emitters only, 2 direct light; -1 no limit
     int rr_depth = 5; ///< Russian roulette starts after this many vertices
     bool hide_emitters = false;
+    ShadingNormals shading_normals = ShadingNormals::consistent;
     bool second_moment = false; ///< wrapped in `moment`: also store the mean of the squared
                                 ///< radiance. What follows from it is the variance of one sample; a
                                 ///< mean of n in the sobol pattern has less than an n-th of it.

@@ -32,6 +32,7 @@
 #define OTHER_FEATURES(X)                                                                          \
     X(ray_streams)        /* so many primitives that rays soon part ways */                        \
     X(vertex_normals)     /* some mesh is smooth */                                                \
+    X(consistent_normals) /* and its shading keeps to the geometry */                               \
     X(vertex_uvs)         /* some mesh has texture coordinates, and something reads them */         \
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
     X(ggx) X(beckmann) X(anisotropy)                                                               \

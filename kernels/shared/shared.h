@@ -12,6 +12,7 @@
 #include "shared/intersect.h"
 #include "shared/sampler.h"
 #include "shared/shading_frame.h"
+#include "shared/shading_normal.h"
 #include "shared/sobol.h"
 #include "shared/solid_angle.h"
 #include "shared/spawn_ray.h"

@@ -101,6 +101,11 @@ FN ProbeOut probe_spherical_triangle(ProbeIn i) {
     vec3 e1 = sub3(in3(i, 3), in3(i, 0)), e2 = sub3(in3(i, 6), in3(i, 0));
     return put2(put3(out1(t.solid_angle), 1, w), 4, plane_coordinates(in3(i, 0), e1, e2, w));
 }
+FN ProbeOut probe_shading_side(ProbeIn i) {
+    ShadingSide s = shading_side(in3(i, 0), in3(i, 3), in3(i, 6));
+    ProbeOut o = put3(out3(s.n), 3, s.g);
+    return put2(o, 6, v2(consistent_share(s, in3(i, 9)), softened_share(s, in3(i, 9))));
+}
 FN ProbeOut probe_camera_ray(ProbeIn i) {
     CameraRay r = camera_ray(in_Camera(i, 0), v2(i.w[21] * R(1000.), i.w[22] * R(1000.)),
                              disk_uniform(in2(i, 23)));
@@ -119,4 +124,5 @@ FN ProbeOut probe_camera_ray(ProbeIn i) {
         PROBE(leave_surface, "ppdd", 3)                                                            \
         PROBE(surface_triangle, "guu", 23) PROBE(surface_vertex_attributes, "gvuu", 23)            \
             PROBE(surface_sphere, "gp", 23) PROBE(surface_disk, "guu", 23)                         \
-                PROBE(spherical_triangle, "pppuu", 6) PROBE(camera_ray, "kuuuu", 7)
+                PROBE(spherical_triangle, "pppuu", 6) PROBE(camera_ray, "kuuuu", 7)          \
+                    PROBE(shading_side, "dddd", 8)

@@ -51,7 +51,9 @@ def parhelion_render(program, case, spp, seeds, extra):
                 "independent",
                 "--filter-by",
                 "sampling",
-                # Mitsuba's rough lobes are those of single scattering.
+                # Mitsuba takes interpolated normals as they are, and lobes of single scattering.
+                "--shading-normals",
+                "raw",
                 "--no-energy-compensation",
                 "--force",
                 "--quiet",

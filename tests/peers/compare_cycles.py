@@ -29,6 +29,7 @@ SCENES = {
 def render(program, scene, out, spp, *options):
     subprocess.run(
         [program, "render", ROOT / "scenes" / scene, "-o", out, "--force", "--quiet", "--allow-outside", "--no-energy-compensation",
+         "--shading-normals", "raw",
          "--size", "128x128", "--spp", str(spp), *options], check=True)
 
 

@@ -182,7 +182,7 @@ TEST_CASE("The warning names stage, place and the command to follow the sample",
     command.scene_file = "my scene.xml";
     command.definitions = {"light=bright"};
     command.seed = 7, command.samples = 64, command.size = "32x16";
-    command.energy_compensation = false;
+    command.energy_compensation = false, command.shading_normals = "raw";
     command.aovs = {"albedo", "depth"};
     RenderReport report;
     CHECK(bad_sample_warning(command, report).empty());
@@ -195,5 +195,5 @@ TEST_CASE("The warning names stage, place and the command to follow the sample",
                          Contains("pixel 3,4 sample 5: shade (bsdf, bounce 2)"));
     CHECK_THAT(text, Contains("parhelion render 'my scene.xml' --pixel 3,4 --sample 5 --trace "
                               "-D light=bright --size 32x16 --spp 64 --seed 7 "
-                              "--no-energy-compensation --aov albedo,depth"));
+                              "--shading-normals raw --no-energy-compensation --aov albedo,depth"));
 }

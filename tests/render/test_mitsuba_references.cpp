@@ -53,6 +53,7 @@ Comparison compare_with_reference(const RenderTest& t, RenderCommand command) {
     // The z-test knows the variance of one sample; only independent ones have that of a mean from
     // it.
     command.sampler = "independent", command.filter_method = "sampling";
+    command.shading_normals = "raw";
     command.energy_compensation = false; // Mitsuba's rough lobes are those of single scattering
     command.samples = pixel_samples / (reference.width * reference.height);
     RenderResult result = test::render_quietly(test::load(command));

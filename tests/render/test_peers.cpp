@@ -42,6 +42,7 @@ RenderResult render_128(const std::string& scene_file, int spp) {
     command.scene_file = test::source_file("scenes/" + scene_file);
     command.size = "128x128";
     command.samples = spp;
+    command.shading_normals = "raw";
     command.energy_compensation = false; // the references are of single scattering
     command.allow_outside = true;        // the bunny stands in a Debian package
     return test::render_quietly(test::load(command));

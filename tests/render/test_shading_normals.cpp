@@ -1,0 +1,65 @@
+// Coarse spheres with smooth normals: faces turned away from the light are dark, and what shading
+// normals are asked for is what is rendered.
+#include "host/render/scene_features.h"
+#include "host/stress/smooth_spheres.h"
+#include "tests/support/render_scene.h"
+
+#include <catch2/catch.hpp>
+
+using namespace parhelion;
+using namespace parhelion::stress;
+
+namespace {
+
+Scene panel_scene(const NamedBsdf& bsdf, ShadingNormals normals) {
+    Scene scene = smooth_spheres({bsdf}, Spheres::open_to_the_right, 200, 1);
+    add_panel(scene, far_panel);
+    scene.integrator.max_depth = 2;
+    scene.integrator.shading_normals = normals;
+    scene.integrator.aovs = {{"ng", "geo_normal", {}}, {"p", "position", {}}};
+    return scene;
+}
+
+std::uint64_t features_of(const Scene& scene) { return make_device_scene(scene).features; }
+
+} // namespace
+
+TEST_CASE("Shading normals: faces that are turned away from the light are dark", "[render]") {
+    for (const NamedBsdf& bsdf : white_bsdfs()) {
+        if (bsdf.transparent || bsdf.name == "mirror") continue; // no mirror shows the panel
+        CAPTURE(bsdf.name);
+        auto count = [&](ShadingNormals normals) {
+            return turned_away(test::render_quietly(panel_scene(bsdf, normals)).image, 0);
+        };
+        TurnedAway consistent = count(ShadingNormals::consistent);
+        CHECK(consistent.lit == 0);
+        CHECK(consistent.dark > 1000);
+        CHECK(count(ShadingNormals::raw).lit > 20);
+    }
+}
+
+TEST_CASE("Shading normals: only lit smooth meshes have kernels that keep to the geometry",
+          "[render]") {
+    constexpr std::uint64_t consistent = feature_bit(feature_consistent_normals);
+    NamedBsdf diffuse = white_bsdfs()[0];
+    Scene scene = panel_scene(diffuse, ShadingNormals::consistent);
+    CHECK((features_of(scene) & consistent) != 0);
+    CHECK((features_of(panel_scene(diffuse, ShadingNormals::raw)) & consistent) == 0);
+    scene.integrator.kind = IntegratorKind::normals;
+    CHECK((features_of(scene) & consistent) == 0);
+    scene = panel_scene(diffuse, ShadingNormals::consistent);
+    std::get<Mesh>(scene.shapes[0].geometry).normals.clear();
+    CHECK((features_of(scene) & consistent) == 0);
+}
+
+TEST_CASE("Shading normals: the command line says which", "[render]") {
+    RenderCommand command;
+    command.scene_file = test::source_file("scenes/cornell-box/scene.xml");
+    CHECK(test::load(command).integrator.shading_normals == ShadingNormals::consistent);
+    command.shading_normals = "raw";
+    CHECK(test::load(command).integrator.shading_normals == ShadingNormals::raw);
+    command.shading_normals = "smooth";
+    CHECK_THROWS_WITH(test::load(command), Catch::Contains("--shading-normals") &&
+                                               Catch::Contains("consistent") &&
+                                               Catch::Contains("raw"));
+}
