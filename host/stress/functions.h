@@ -10,5 +10,6 @@ std::vector<FunctionTest> microfacet_functions();
 std::vector<FunctionTest> vector_functions();
 std::vector<FunctionTest> intersection_functions();
 std::vector<FunctionTest> sampling_functions();
+std::vector<FunctionTest> normals_functions();
 
 } // namespace parhelion::stress

@@ -19,6 +19,7 @@ namespace parhelion::stress {
     X(density,        "Statistics", "Samples of every material follow its density (chi-square, Sidak)") \
     X(furnace,        "Statistics", "No material returns more than it receives") \
     X(white_furnace,  "Statistics", "Rough materials with energy compensation return what they receive") \
+    X(shading_normals, "Images", "Coarse spheres with smooth normals: no light from below the true surface, no more than there is") \
     X(closed_forms,   "Images", "Scenes of known answers over many seeds: no bias, and errors as large as they say")
 // clang-format on
 
