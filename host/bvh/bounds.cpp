@@ -3,6 +3,9 @@
 
 #include "kernels/shared/features.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,6 +52,13 @@ std::array<Interval, 3> extents(const PrimitiveRecord& p) {
 }
 
 } // namespace
+
+bool can_be_hit(const PrimitiveRecord& p) {
+    if (geometry_kind(p) != geometry_triangle) return true;
+    glm::dvec3 a(p.ax, p.ay, p.az);
+    return glm::cross(glm::dvec3(p.bx, p.by, p.bz) - a, glm::dvec3(p.cx, p.cy, p.cz) - a) !=
+           glm::dvec3(0.0);
+}
 
 Reference make_reference(const PrimitiveRecord& primitive, int number) {
     std::array<Interval, 3> e = extents(primitive);

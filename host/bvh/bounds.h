@@ -60,6 +60,11 @@ inline int geometry_kind(const PrimitiveRecord& primitive) {
     return primitive.flags & PRIMITIVE_KIND_MASK;
 }
 
+/// Whether a primitive is no triangle without area: corners that coincide, or lie in line. The ray
+/// test would hit the latter, since a ray's shear rounds them out of line, and the surface there
+/// would have no normal (`extra` is 0 for the same triangles).
+bool can_be_hit(const PrimitiveRecord& primitive);
+
 /// Box and number of a primitive: exact for a triangle, rounded outward for a sphere or a disk.
 Reference make_reference(const PrimitiveRecord& primitive, int number);
 

@@ -9,19 +9,28 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 
 namespace parhelion {
 namespace {
 
+/// Of all primitives that can be hit.
 template<class NumberOf>
 LargeVector<Reference> make_references(std::span<const PrimitiveRecord> primitives,
                                        std::size_t count, const NumberOf& number_of) {
     LargeVector<Reference> references(count);
+    std::atomic<bool> all = true;
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         int number = number_of(i);
-        references[i] = make_reference(primitives[std::size_t(number)], number);
+        const PrimitiveRecord& primitive = primitives[std::size_t(number)];
+        references[i] = make_reference(primitive, number);
+        if (!can_be_hit(primitive)) all = false;
     });
+    if (!all)
+        std::erase_if(references, [&](const Reference& r) {
+            return !can_be_hit(primitives[std::size_t(r.primitive())]);
+        });
     return references;
 }
 
@@ -58,8 +67,9 @@ template<class NumberOf>
 int append_timed(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::size_t count,
                  const NumberOf& number_of, BvhStatistics* statistics, int stack_limit) {
     auto start = std::chrono::steady_clock::now();
-    Built built = append_references(bvh, primitives, make_references(primitives, count, number_of),
-                                    stack_limit);
+    LargeVector<Reference> references = make_references(primitives, count, number_of);
+    std::size_t used = references.size();
+    Built built = append_references(bvh, primitives, std::move(references), stack_limit);
     if (statistics) {
         BvhStatistics s;
         const WideExtent& extent = built.extent;
@@ -69,7 +79,7 @@ int append_timed(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::siz
         s.sah_cost = built.sah_cost;
         s.depth = extent.depth;
         s.stack_entries = extent.stack_entries;
-        s.leaf_fill = s.leaf_count ? double(count) / double(s.leaf_count * BVH_WIDTH) : 0;
+        s.leaf_fill = s.leaf_count ? double(used) / double(s.leaf_count * BVH_WIDTH) : 0;
         s.build_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         *statistics = s;

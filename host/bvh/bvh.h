@@ -28,10 +28,11 @@ struct BvhStatistics {
 
 /// Builds a tree over the primitives numbered in `subset` and appends it to bvh; returns the root
 /// as a child code:
-/// >= 0 a node, < 0 a leaf (as in BvhNode). An empty subset gives a node whose 16 children are
-/// empty. The result is the same bits for any number of threads. A tree that would need more than
-/// `stack_limit` stack entries is built again by halving, which needs at most 15 (log2(n) + 3).
-/// Coordinates are finite; at most 2^29 lines of leaves in bvh.
+/// >= 0 a node, < 0 a leaf (as in BvhNode). Triangles without area are left out: no ray hits them.
+/// An empty subset gives a node whose 16 children are empty. The result is the same bits for any
+/// number of threads. A tree that would need more than `stack_limit` stack entries is built again
+/// by halving, which needs at most 15 (log2(n) + 3). Coordinates are finite; at most 2^29 lines of
+/// leaves in bvh.
 int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::span<const int> subset,
                BvhStatistics* statistics = nullptr, int stack_limit = BVH_STACK);
 

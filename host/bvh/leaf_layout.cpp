@@ -47,12 +47,12 @@ private:
     std::uint32_t x_[BVH_WIDTH]{}, y_[BVH_WIDTH]{}, z_[BVH_WIDTH]{};
 };
 
-/// The corners of a triangle as a patch has them; nothing where they do not fit, or are one point,
-/// which would read as absent.
+/// The corners of a triangle as a patch has them, which are not one point (that reads as absent);
+/// nothing where they do not fit.
 std::optional<std::uint32_t> corner_bits(const PrimitiveRecord& p, CornerTable& corners) {
     int a = corners.place(p.ax, p.ay, p.az), b = corners.place(p.bx, p.by, p.bz),
         c = corners.place(p.cx, p.cy, p.cz);
-    if (std::max({a, b, c}) == BVH_WIDTH || (a == b && b == c)) return std::nullopt;
+    if (std::max({a, b, c}) == BVH_WIDTH) return std::nullopt;
     return std::uint32_t(a | b << 4 | c << 8);
 }
 

@@ -12,6 +12,7 @@ namespace parhelion::stress {
     X(same_bits,      "Functions", "Host and device compute the same bits: every shared function on wild inputs") \
     X(leaks,          "Rays", "Rays at edges and corners of closed meshes never get out")          \
     X(brute_force,    "Rays", "The tree finds what trying every primitive finds")                  \
+    X(degenerate_triangles, "Rays", "Triangles of no area are never hit, needles keep a mesh closed") \
     X(self_hits,      "Rays", "Rays that leave a triangle hit neither it nor what lies in its plane") \
     X(occlusion,      "Rays", "Shadow rays are blocked by what is in their way and by nothing else") \
     X(nested_spheres, "Rays", "Of two spheres 4e-6 apart the nearer one shows") \
