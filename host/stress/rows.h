@@ -16,6 +16,7 @@ namespace parhelion::stress {
     X(self_hits,      "Rays", "Rays that leave a triangle hit neither it nor what lies in its plane") \
     X(occlusion,      "Rays", "Shadow rays are blocked by what is in their way and by nothing else") \
     X(nested_spheres, "Rays", "Of two spheres 4e-6 apart the nearer one shows") \
+    X(light_tables,   "Statistics", "Lights of very unequal power, and filters: shares, draws and densities agree") \
     X(accumulation,   "Sums", "A pixel's mean and variance do not drift with its samples") \
     X(density,        "Statistics", "Samples of every material follow its density (chi-square, Sidak)") \
     X(furnace,        "Statistics", "No material returns more than it receives") \

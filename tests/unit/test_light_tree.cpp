@@ -5,62 +5,18 @@
 #include <catch2/catch.hpp>
 #include <glm/vector_relational.hpp>
 
-#include <span>
+#include "host/stress/light_tables.h"
 
 using namespace parhelion;
+using namespace parhelion::stress;
 using namespace parhelion::test;
 
 namespace {
-
-f32::LightNode lanes_of(const LightNodeRecord& r) {
-    f32::LightNode n{};
-#define COPY_FIELD(type, name) n.name = r.name;
-    LIGHT_NODE_FIELDS(COPY_FIELD)
-    return n;
-}
-
-f32::Light lanes_of(const LightRecord& r) {
-    f32::Light n{};
-    LIGHT_FIELDS(COPY_FIELD)
-    return n;
-}
 
 /// A point of the scene as the device has it.
 f32::vec3 in_frame(const DeviceScene& scene, f64::vec3 p) {
     glm::vec3 q(scene.frame.point({p.x, p.y, p.z}));
     return {q.x, q.y, q.z};
-}
-
-/// Probability of each light for a surface at p with normal n (`hint`: of any orientation), by
-/// walking the whole tree.
-std::vector<double> probabilities(const DeviceScene& scene, f32::vec3 p, f32::vec3 n, bool hint) {
-    std::vector<double> pmf(scene.lights.size());
-    struct Visit {
-        int first;
-        double share;
-    };
-    std::vector<Visit> open{{0, 1.0}};
-    while (!open.empty()) {
-        Visit v = open.back();
-        open.pop_back();
-        auto pair = std::span(scene.light_tree.nodes).subspan(std::size_t(v.first), 2);
-        double importance[2];
-        for (std::size_t k = 0; k < 2; k++) {
-            auto i = f32::light_importance(lanes_of(pair[k]), p, n);
-            importance[k] = hint ? i.to_point : i.to_surface;
-        }
-        double sum = importance[0] + importance[1];
-        if (!(sum > 0)) continue;
-        for (std::size_t k = 0; k < 2; k++) {
-            int child = pair[k].child, row = ~child;
-            double share = v.share * importance[k] / sum;
-            if (child >= 0)
-                open.push_back({child, share});
-            else
-                pmf[std::size_t(row)] += share;
-        }
-    }
-    return pmf;
 }
 
 double sum_of(const std::vector<double>& values) {
@@ -101,8 +57,8 @@ TEST_CASE(
         DeviceScene scene = make_device_scene(many_lights_scene(count, true));
         for (int repeat = 0; repeat < 100; repeat++) {
             f32::vec3 p = in_frame(scene, random.point<F64>(9)), n = random.direction<F32>();
-            std::vector<double> pmf = probabilities(scene, p, n, false),
-                                hint = probabilities(scene, p, n, true);
+            std::vector<double> pmf = light_probabilities(scene, p, n, false),
+                                hint = light_probabilities(scene, p, n, true);
             // The bounds of a group may promise light that neither of its halves has.
             CHECK(sum_of(pmf) < 1 + 1e-5);
             CHECK(sum_of(hint) < 1 + 1e-5);
@@ -118,7 +74,8 @@ TEST_CASE(
 
 TEST_CASE("Light tree: by power every light has its share of it, everywhere") {
     DeviceScene scene = make_device_scene(many_lights_scene(100, true), LightChoice::power);
-    std::vector<double> pmf = probabilities(scene, in_frame(scene, {1, 2, 3}), {0, 1, 0}, false);
+    std::vector<double> pmf =
+        light_probabilities(scene, in_frame(scene, {1, 2, 3}), {0, 1, 0}, false);
     for (std::size_t row = 0; row < pmf.size(); row++)
         CHECK(pmf[row] == Approx(scene.lights[row].pmf).epsilon(1e-4));
 }
@@ -131,7 +88,7 @@ TEST_CASE("Light tree: lights of any brightness have their share") {
         scene.shapes.pop_back(); // the lamp
         DeviceScene device = make_device_scene(scene);
         std::vector<double> pmf =
-            probabilities(device, in_frame(device, {0, 0, 0}), {0, 1, 0}, false);
+            light_probabilities(device, in_frame(device, {0, 0, 0}), {0, 1, 0}, false);
         CHECK(pmf == std::vector{0.5, 0.5});
     }
 }
@@ -146,7 +103,8 @@ TEST_CASE("Light table: a light too bright for single precision is refused") {
 
 TEST_CASE("Light tree: a sky keeps its share of the power whatever is near") {
     DeviceScene scene = make_device_scene(many_lights_scene(100, true));
-    std::vector<double> pmf = probabilities(scene, in_frame(scene, {1, 0.5, 3}), {0, 1, 0}, false);
+    std::vector<double> pmf =
+        light_probabilities(scene, in_frame(scene, {1, 0.5, 3}), {0, 1, 0}, false);
     double share = scene.lights[std::size_t(scene.constant_light)].pmf;
     CHECK(pmf[std::size_t(scene.constant_light)] == Approx(share).epsilon(1e-5));
 }
