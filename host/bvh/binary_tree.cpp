@@ -2,8 +2,7 @@
 #include "host/bvh/binary_tree.h"
 
 #include "host/bvh/split.h"
-
-#include <oneapi/tbb/task_group.h>
+#include "host/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -62,7 +61,7 @@ private:
 
     void build_both(const Subtree& left, const Subtree& right) {
         if (left.count + right.count > task_references) {
-            tbb::task_group group;
+            TaskGroup group;
             group.run([&] { build(left); });
             build(right);
             group.wait();

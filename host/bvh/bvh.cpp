@@ -5,8 +5,7 @@
 #include "host/bvh/collapse.h"
 #include "host/bvh/leaf_layout.h"
 #include "host/bvh/wide_layout.h"
-
-#include <oneapi/tbb/parallel_for.h>
+#include "host/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,7 +20,7 @@ LargeVector<Reference> make_references(std::span<const PrimitiveRecord> primitiv
                                        std::size_t count, const NumberOf& number_of) {
     LargeVector<Reference> references(count);
     std::atomic<bool> all = true;
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    parallel_for(count, [&](std::size_t i) {
         int number = number_of(i);
         const PrimitiveRecord& primitive = primitives[std::size_t(number)];
         references[i] = make_reference(primitive, number);

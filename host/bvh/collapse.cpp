@@ -1,7 +1,7 @@
 // Dynamic programming from the leaves up: the least cost of a subtree seen through 1 to 15 boxes.
 #include "host/bvh/collapse.h"
 
-#include <oneapi/tbb/task_group.h>
+#include "host/parallel.h"
 
 #include <limits>
 
@@ -65,7 +65,7 @@ private:
 
     void plan_children(const BinaryNode& node, Costs& left, Costs& right) const {
         if (node.count > task_references) {
-            tbb::task_group group;
+            TaskGroup group;
             group.run([&] { left = plan(node.children); });
             right = plan(node.children + 1);
             group.wait();

@@ -3,8 +3,7 @@
 #include "host/bvh/split.h"
 
 #include "host/bvh/bins.h"
-
-#include <oneapi/tbb/parallel_for.h>
+#include "host/parallel.h"
 
 #include <algorithm>
 #include <vector>
@@ -21,7 +20,7 @@ std::size_t piece_count(std::size_t references) {
 /// body(piece, first reference, references) for all pieces of a range.
 template<class Body>
 void for_pieces(std::size_t references, const Body& body) {
-    tbb::parallel_for(std::size_t{0}, piece_count(references), [&](std::size_t piece) {
+    parallel_for(piece_count(references), [&](std::size_t piece) {
         std::size_t begin = piece * piece_size;
         body(piece, begin, std::min(piece_size, references - begin));
     });

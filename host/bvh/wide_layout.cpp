@@ -2,8 +2,7 @@
 #include "host/bvh/wide_layout.h"
 
 #include "host/bvh/leaf_layout.h"
-
-#include <oneapi/tbb/task_group.h>
+#include "host/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -80,7 +79,7 @@ private:
 /// Calls visit(i, child) for the children that are nodes, large ones in tasks of their own.
 template<class Visit>
 void for_node_children(const Collapsed& collapsed, const Children& children, const Visit& visit) {
-    tbb::task_group group;
+    TaskGroup group;
     for (int i = 0; i < children.count; i++) {
         int child = children.binary[std::size_t(i)];
         if (collapsed.is_leaf(child)) continue;

@@ -3,12 +3,12 @@
 
 #include "host/clock.h"
 #include "host/oracle/wave_memory.h"
+#include "host/parallel.h"
 #include "host/render/film_image.h"
 #include "host/render/render_params.h"
 #include "host/render/wave_schedule.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <array>
 #include <utility>
@@ -20,8 +20,9 @@ namespace {
 /// A stage's work-items, side by side: none reads what another writes.
 template<class Real>
 void run_stage(Stage stage, const HostLaunch<Real>& launch, int depth, int work_items) {
-    tbb::parallel_for(0, work_items,
-                      [&](int number) { run_work_item(stage, launch, depth, number); });
+    parallel_for(static_cast<std::size_t>(work_items), [&](std::size_t number) {
+        run_work_item(stage, launch, depth, static_cast<int>(number));
+    });
 }
 
 /// Live paths and shadow rays of all segments.

@@ -2,6 +2,7 @@
 // builder.
 #include "host/render/device_scene.h"
 
+#include "host/parallel.h"
 #include "host/render/energy_table.h"
 #include "host/render/filter_table.h"
 #include "host/render/light_table.h"
@@ -11,8 +12,6 @@
 #include <fmt/format.h>
 
 #include <glm/geometric.hpp>
-
-#include <oneapi/tbb/parallel_for.h>
 
 #include <limits>
 #include <type_traits>
@@ -73,7 +72,7 @@ void add_shape(const Mesh& mesh, const Shape& shape, int index, DeviceScene& out
     std::size_t first = out.primitives.size();
     out.primitives.resize(first + mesh.triangles.size());
     if (attributes) out.vertices.resize(out.primitives.size());
-    tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
+    parallel_for(mesh.triangles.size(), [&](std::size_t i) {
         const glm::uvec3& t = mesh.triangles[i];
         PrimitiveRecord p = primitive(shape, index, geometry_triangle, flags);
         p.index_in_shape = static_cast<int>(i);

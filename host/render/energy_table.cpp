@@ -1,7 +1,7 @@
 // The share of light that rough surfaces send on by single scattering, tabulated for the device.
 #include "host/render/energy_table.h"
 
-#include <tbb/parallel_for.h>
+#include "host/parallel.h"
 
 #include <map>
 #include <tuple>
@@ -84,8 +84,8 @@ Rows transposed(const Rows& rows) {
 /// Computed values in rows of equal azimuth, one row where the material is isotropic.
 Rows knots(const RoughSide& side, int azimuths, int cosines) {
     Rows rows(static_cast<std::size_t>(azimuths), std::vector<double>(cosines));
-    tbb::parallel_for(0, azimuths * cosines, [&](int n) {
-        int row = n / cosines, column = n % cosines;
+    parallel_for(static_cast<std::size_t>(azimuths * cosines), [&](std::size_t n) {
+        int number = static_cast<int>(n), row = number / cosines, column = number % cosines;
         double azimuth = azimuths > 1 ? row / (azimuths - 1.0) : 0.0;
         f64::vec3 wo = direction_at(side, column / (cosines - 1.0), azimuth);
         rows[row][column] = single_scattering(side, wo, azimuths == 1);

@@ -2,14 +2,12 @@
 #include "host/render/scene_frame.h"
 
 #include "host/error.h"
+#include "host/parallel.h"
 
 #include <fmt/format.h>
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
-
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,17 +30,15 @@ Bounds join(const Bounds& a, const Bounds& b) {
 // Boxes around shapes, relative to the camera.
 
 Bounds bounds_of(const Mesh& mesh, const glm::dvec3& camera) {
-    using Range = tbb::blocked_range<std::size_t>;
     // Of triangles: a vertex that none uses is not there.
-    auto grow = [&](const Range& range, Bounds box) {
-        for (std::size_t i = range.begin(); i < range.end(); i++)
-            for (int k = 0; k < 3; k++) {
-                const glm::dvec3& p = mesh.positions[mesh.triangles[i][k]];
-                box = join(box, {p, p});
-            }
+    auto grow = [&](Bounds box, std::size_t triangle) {
+        for (int k = 0; k < 3; k++) {
+            const glm::dvec3& p = mesh.positions[mesh.triangles[triangle][k]];
+            box = join(box, {p, p});
+        }
         return box;
     };
-    Bounds box = tbb::parallel_reduce(Range(0, mesh.triangles.size()), Bounds{}, grow, join);
+    Bounds box = parallel_sum(mesh.triangles.size(), Bounds{}, grow, join);
     return {box.low - camera, box.high - camera};
 }
 

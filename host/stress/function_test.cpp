@@ -1,6 +1,7 @@
 // Running tests of functions: batches side by side, whose findings are put together in their order.
+#include "host/parallel.h"
+
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -178,7 +179,7 @@ Checks run_function_test(StressRun& run, const FunctionTest& test) {
     std::size_t runs = std::min<std::size_t>(count, 256);
     std::vector<BatchResult> results(runs);
     std::atomic<std::size_t> finished = 0;
-    tbb::parallel_for(std::size_t{0}, runs, [&](std::size_t r) {
+    parallel_for(runs, [&](std::size_t r) {
         for (std::size_t i = count * r / runs; i < count * (r + 1) / runs; i++) {
             merge(results[r],
                   batches.run(workers.local(), run.seed + 0x9e3779b97f4a7c15u * (i + 1)));

@@ -1,9 +1,9 @@
 // A pixel's mean and variance after many samples: sums that stop growing, and squares that cancel,
 // would show.
+#include "host/parallel.h"
 #include "host/stress/rows.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <array>
 #include <atomic>
@@ -16,7 +16,7 @@ Checks row_accumulation(StressRun& run) {
     std::uint64_t count = run.count(1'000'000, 10'000'000, 1'000'000'000);
     std::array<FilmDrift, std::size(film_feeds)> drift;
     std::atomic<std::size_t> finished = 0;
-    tbb::parallel_for(std::size_t{0}, drift.size(), [&](std::size_t i) {
+    parallel_for(drift.size(), [&](std::size_t i) {
         drift[i] = film_drift(film_feeds[i], static_cast<std::int64_t>(count), run.seed);
         run.done(static_cast<double>(++finished) / static_cast<double>(drift.size()));
     });

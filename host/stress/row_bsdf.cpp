@@ -1,9 +1,9 @@
 // Every kind of material in the list: its samples follow the density that it states, and no more
 // comes back than went in.
+#include "host/parallel.h"
 #include "host/stress/rows.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ Checks density_checks(StressRun& run, const std::string& name,
                       const std::vector<Configuration>& list, std::uint64_t count) {
     std::vector<DensityTest> tests(list.size());
     std::atomic<std::size_t> finished = 0;
-    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) {
+    parallel_for(list.size(), [&](std::size_t i) {
         tests[i] = test_density(list[i], count, run.seed + 1000 + i, 1e-4);
         run.done(static_cast<double>(++finished) / static_cast<double>(list.size()));
     });
@@ -91,7 +91,7 @@ Checks row_furnace(StressRun& run) {
         for (const Configuration& c : configurations(kind, true))
             list.push_back(c);
         std::vector<double> over(list.size());
-        tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) {
+        parallel_for(list.size(), [&](std::size_t i) {
             over[i] = power_over_one(list[i], count, run.seed + i);
         });
         std::size_t worst = std::max_element(over.begin(), over.end()) - over.begin();

@@ -1,9 +1,9 @@
 // Every float of the domain of every function of one number: device against host, host against
 // double.
+#include "host/parallel.h"
 #include "host/stress/rows.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <array>
 #include <atomic>
@@ -158,7 +158,7 @@ Finding try_all(StressRun& run, const OneArgument& f, int which) {
         std::size_t batches = (range.last - range.first) / f.step / batch + 1;
         std::vector<Finding> found(batches);
         std::atomic<std::size_t> finished = 0;
-        tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t i) {
+        parallel_for(batches, [&](std::size_t i) {
             auto first = range.first + static_cast<std::uint32_t>(i) * batch * f.step;
             if (i + 1 == batches || tried(run.effort, f, first, i))
                 found[i] = try_batch(workers.local(), f, which, first, range.last);
