@@ -71,8 +71,7 @@ inline DensityTest test_density(const Configuration& c, std::uint64_t count, std
     expected[bins.size()] = tries * std::max(0.0, 1 - scattered);
     double missing = observed[bins.size()] / tries;
     // Normal approximation of the binomial, and the quadrature's own error.
-    double sigma =
-        std::sqrt(std::max(missing, 1 / tries) / tries) + (grazing ? ridge_error : 1e-5);
+    double sigma = std::sqrt(std::max(missing, 1 / tries) / tries) + (grazing ? ridge_error : 1e-5);
     return {chi_square_p(observed, expected), normal_two_sided((missing - (1 - scattered)) / sigma),
             scattered};
 }

@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
 
 #include "host/stress/light_tables.h"
 
@@ -194,7 +193,7 @@ Checks by_importance(StressRun& run) {
         over.add(std::max(0., sum_of(v.shares) - 1));
         list.push_back(v);
     }
-    tbb::parallel_for(std::size_t{0}, views, [&](std::size_t i) {
+    parallel_for(views, [&](std::size_t i) {
         found[i] =
             draw_lights(scene, list[i].p, list[i].n, list[i].shares, count, 1000 * run.seed + i);
     });
