@@ -20,6 +20,26 @@ inline Check rays_check(const std::string& name, std::uint64_t wrong, std::uint6
             .samples = samples};
 }
 
+/// What the kernels as C++ have answered to a row's rays, or as many of them as they were given.
+inline Check host_check(const std::string& row, Traversal& traversal) {
+    HostAnswers answers = traversal.take_host_answers();
+    return rays_check(row + ": other bits than the device's from the kernels as C++",
+                      answers.differing, answers.rays);
+}
+
+/// Calls trace with so many rays of make(number) at a time.
+template<class Make, class Trace>
+void in_batches(std::uint64_t count, Make make, Trace trace) {
+    constexpr std::uint64_t batch = 1 << 17;
+    std::vector<TracedRay> list;
+    for (std::uint64_t first = 0; first < count; first += batch) {
+        list.clear();
+        for (std::uint64_t i = first; i < std::min(count, first + batch); i++)
+            list.push_back(make(i));
+        trace(std::as_const(list));
+    }
+}
+
 inline rays::Vector vector_of(f32::vec3 v) { return {v.x, v.y, v.z}; }
 
 /// Where a ray along w leaves the surface, as shade.cl has it.

@@ -91,38 +91,33 @@ bool finite(const TracedHit& h) {
     return std::isfinite(h.t) && std::isfinite(h.b1) && std::isfinite(h.b2);
 }
 
-struct Answers {
-    std::vector<TracedRay> rays;
-    std::vector<TracedHit> hits;
-    std::vector<bool> occluded;
-};
-
-/// Rays from inside at corners and edges of all triangles.
-Answers trace(Traversal& traversal, const Primitives& mesh, float radius, std::uint64_t count,
-              rays::Random& random) {
+/// Rays from inside at corners and edges of all triangles; judge(ray, hit, occluded) has each.
+template<class Judge>
+void trace(Traversal& traversal, const Primitives& mesh, float radius, std::uint64_t count,
+           rays::Random& random, Judge judge) {
     traversal.upload(mesh);
-    Answers a;
-    for (std::uint64_t i = 0; i < count; i++)
-        a.rays.push_back(aimed_ray(mesh, {radius, {0, 0, 0}}, random, i));
-    a.hits = traversal.closest(a.rays);
-    a.occluded = traversal.occluded(a.rays);
-    return a;
+    auto ray = [&](std::uint64_t i) { return aimed_ray(mesh, {radius, {0, 0, 0}}, random, i); };
+    in_batches(count, ray, [&](const std::vector<TracedRay>& list) {
+        std::vector<TracedHit> hits = traversal.closest(list);
+        std::vector<bool> occluded = traversal.occluded(list);
+        for (std::size_t i = 0; i < list.size(); i++)
+            judge(list[i], hits[i], occluded[i]);
+    });
 }
 
 /// Against brute force over the sound ones.
 void add_mixture(Traversal& traversal, const Mixture& m, std::uint64_t count, rays::Random& random,
                  Counts& counts) {
-    Answers a = trace(traversal, m.all, m.radius, count, random);
-    for (std::size_t i = 0; i < count; i++) {
-        rays::Hit truth = rays::brute_force(m.sound, {a.rays[i].origin, a.rays[i].direction});
-        const TracedHit& hit = a.hits[i];
-        bool found = hit.primitive >= 0;
-        int number = found ? m.number[hit.primitive] : -1;
-        counts.flat += found && number < 0;
-        counts.other += number != truth.primitive || (number >= 0 && hit.t != truth.t);
-        counts.other_any += a.occluded[i] != (truth.primitive >= 0);
-        counts.not_finite += found && !finite(hit);
-    }
+    trace(traversal, m.all, m.radius, count, random,
+          [&](const TracedRay& ray, const TracedHit& hit, bool occluded) {
+              rays::Hit truth = rays::brute_force(m.sound, {ray.origin, ray.direction});
+              bool found = hit.primitive >= 0;
+              int number = found ? m.number[hit.primitive] : -1;
+              counts.flat += found && number < 0;
+              counts.other += number != truth.primitive || (number >= 0 && hit.t != truth.t);
+              counts.other_any += occluded != (truth.primitive >= 0);
+              counts.not_finite += found && !finite(hit);
+          });
     counts.rays += count;
 }
 
@@ -169,20 +164,18 @@ struct NeedleCounts {
 void add_needles(Traversal& traversal, float radius, float height, std::uint64_t count,
                  rays::Random& random, NeedleCounts& counts) {
     Primitives mesh = with_needles(rays::subdivided_sphere(3, radius, {0, 0, 0}), height);
-    Answers a = trace(traversal, mesh, radius, count, random);
-    for (std::size_t i = 0; i < count; i++) {
-        const TracedHit& hit = a.hits[i];
-        counts.light_leaks += !a.occluded[i];
-        counts.leaks += hit.primitive < 0;
-        if (hit.primitive < 0) continue;
-        counts.not_finite += !finite(hit);
-        counts.needles += hit.primitive % 3 == 0;
-        f64::vec3 o = wide(rays::to_vec3(a.rays[i].origin)),
-                  d = wide(rays::to_vec3(a.rays[i].direction));
-        f64::vec3 at = f64::add3(o, f64::scale3(d, double{hit.t}));
-        counts.distance.add(distance_to_triangle(at, mesh[hit.primitive]) /
-                            static_cast<double>(ulp_of<float>(radius)));
-    }
+    trace(traversal, mesh, radius, count, random,
+          [&](const TracedRay& ray, const TracedHit& hit, bool occluded) {
+              counts.light_leaks += !occluded;
+              counts.leaks += hit.primitive < 0;
+              if (hit.primitive < 0) return;
+              counts.not_finite += !finite(hit);
+              counts.needles += hit.primitive % 3 == 0;
+              f64::vec3 o = wide(rays::to_vec3(ray.origin)), d = wide(rays::to_vec3(ray.direction));
+              f64::vec3 at = f64::add3(o, f64::scale3(d, double{hit.t}));
+              counts.distance.add(distance_to_triangle(at, mesh[hit.primitive]) /
+                                  static_cast<double>(ulp_of<float>(radius)));
+          });
     counts.rays += count;
 }
 
@@ -220,6 +213,7 @@ Checks row_degenerate_triangles(StressRun& run) {
     run.done(0.5);
     for (const Check& check : needle_checks(run, random))
         checks.push_back(check);
+    checks.push_back(host_check("no area and needles", run.traversal()));
     return checks;
 }
 

@@ -27,35 +27,24 @@ std::vector<rays::Primitives> meshes(const Place& place) {
 }
 
 struct Counts {
-    std::uint64_t device_rays = 0, host_rays = 0, leaks = 0, light_leaks = 0, host_leaks = 0;
+    std::uint64_t rays = 0, leaks = 0, light_leaks = 0;
 };
 
-/// Traces `count` rays on the device in batches, and the first of each batch through the host's
-/// walk as well.
 void count_leaks(Traversal& traversal, const rays::Primitives& mesh, const Place& place,
                  std::uint64_t count, std::uint64_t seed, Counts& counts) {
-    constexpr std::uint64_t batch = 1 << 17;
-    Bvh bvh;
-    int root = bvh_append(bvh, mesh);
-    traversal.upload(bvh, root);
+    traversal.upload(mesh);
     rays::Random random(static_cast<unsigned>(seed));
-    std::vector<TracedRay> list;
-    for (std::uint64_t first = 0; first < count; first += batch) {
-        list.clear();
-        for (std::uint64_t i = first; i < std::min(count, first + batch); i++)
-            list.push_back(aimed_ray(mesh, place, random, i));
-        std::vector<TracedHit> hits = traversal.closest(list);
-        std::vector<bool> occluded = traversal.occluded(list);
-        for (std::size_t i = 0; i < list.size(); i++) {
-            counts.leaks += hits[i].primitive < 0;
-            counts.light_leaks += !occluded[i];
-            if (i >= list.size() / 64) continue;
-            counts.host_leaks +=
-                rays::walk(bvh, root, {list[i].origin, list[i].direction}).primitive < 0;
-            counts.host_rays++;
-        }
-        counts.device_rays += list.size();
-    }
+    in_batches(
+        count, [&](std::uint64_t i) { return aimed_ray(mesh, place, random, i); },
+        [&](const std::vector<TracedRay>& list) {
+            std::vector<TracedHit> hits = traversal.closest(list);
+            std::vector<bool> occluded = traversal.occluded(list);
+            for (std::size_t i = 0; i < list.size(); i++) {
+                counts.leaks += hits[i].primitive < 0;
+                counts.light_leaks += !occluded[i];
+            }
+            counts.rays += list.size();
+        });
 }
 
 } // namespace
@@ -72,11 +61,11 @@ Checks row_leaks(StressRun& run) {
             checks.push_back(
                 rays_check(fmt::format("leaks, {}: {}", list[i].name, what), leaks, tried));
         };
-        check("paths", counts.leaks, counts.device_rays);
-        check("shadow rays", counts.light_leaks, counts.device_rays);
-        check("host's walk", counts.host_leaks, counts.host_rays);
+        check("paths", counts.leaks, counts.rays);
+        check("shadow rays", counts.light_leaks, counts.rays);
         run.done(static_cast<double>(i + 1) / static_cast<double>(list.size()));
     }
+    checks.push_back(host_check("leaks", run.traversal()));
     return checks;
 }
 

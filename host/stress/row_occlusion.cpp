@@ -87,17 +87,18 @@ Checks row_occlusion(StressRun& run) {
                 Room room = make_room(distance, distance * aspect, blocked,
                                       random.bits() % 2 ? 0.5 : random.log_between(1e-3, 0.999));
                 run.traversal().upload(room.mesh);
-                std::vector<TracedRay> list;
-                for (std::uint64_t i = 0; i < per_room; i++) {
+                auto ray = [&](std::uint64_t i) {
                     auto from = static_cast<int>(random.bits() % 2);
-                    list.push_back(shadow_ray(point_of(room.mesh, from, random), from,
-                                              light_of(room, i % 2 == 0, random), random));
-                }
-                for (bool occluded : run.traversal().occluded(list)) {
-                    lost += !blocked && occluded;
-                    leaked += blocked && !occluded;
-                }
-                tried += list.size();
+                    return shadow_ray(point_of(room.mesh, from, random), from,
+                                      light_of(room, i % 2 == 0, random), random);
+                };
+                in_batches(per_room, ray, [&](const std::vector<TracedRay>& list) {
+                    for (bool occluded : run.traversal().occluded(list)) {
+                        lost += !blocked && occluded;
+                        leaked += blocked && !occluded;
+                    }
+                });
+                tried += per_room;
             }
         checks.push_back(
             rays_check(fmt::format("light at 1e{}: kept away by nothing", exponent), lost, tried));
@@ -105,6 +106,7 @@ Checks row_occlusion(StressRun& run) {
             rays_check(fmt::format("light at 1e{}: through a blind", exponent), leaked, tried));
         run.done((exponent + 7) / 13.);
     }
+    checks.push_back(host_check("occlusion", run.traversal()));
     return checks;
 }
 

@@ -101,26 +101,23 @@ struct Counts {
 
 void count_self_hits(Traversal& traversal, const Sheet& sheet, std::uint64_t count, Random& random,
                      Counts& counts) {
-    constexpr std::uint64_t batch = 1 << 17;
     rays::Primitives mesh = with_normals(sheet.mesh);
     traversal.upload(mesh);
     Vector middle{};
     for (const PrimitiveRecord& p : mesh)
         middle = rays::add(middle,
                            rays::scaled({p.ax, p.ay, p.az}, 1.f / static_cast<float>(mesh.size())));
-    std::vector<TracedRay> list;
-    for (std::uint64_t first = 0; first < count; first += batch) {
-        list.clear();
-        while (list.size() < std::min(batch, count - first)) {
-            auto number = static_cast<int>(random.bits() % mesh.size());
-            f32::SurfaceInteraction s = some_point(mesh[number], random);
-            float side = static_cast<float>(random.sign());
-            if (sheet.closed) // outward
-                side = f32::dot3(s.ng, f32::sub3(s.p, rays::to_vec3(middle))) > 0 ? 1.f : -1.f;
-            f32::vec3 w = some_direction(f32::scale3(s.ng, side), random);
-            list.push_back(leaving(s, w, number));
-            counts.not_finite += !f32::finite3(s.p) || !f32::finite3(w);
-        }
+    auto ray = [&](std::uint64_t) {
+        auto number = static_cast<int>(random.bits() % mesh.size());
+        f32::SurfaceInteraction s = some_point(mesh[number], random);
+        float side = static_cast<float>(random.sign());
+        if (sheet.closed) // outward
+            side = f32::dot3(s.ng, f32::sub3(s.p, rays::to_vec3(middle))) > 0 ? 1.f : -1.f;
+        f32::vec3 w = some_direction(f32::scale3(s.ng, side), random);
+        counts.not_finite += !f32::finite3(s.p) || !f32::finite3(w);
+        return leaving(s, w, number);
+    };
+    in_batches(count, ray, [&](const std::vector<TracedRay>& list) {
         std::vector<TracedHit> hits = traversal.closest(list);
         std::vector<bool> occluded = traversal.occluded(list);
         for (std::size_t i = 0; i < list.size(); i++) {
@@ -128,7 +125,7 @@ void count_self_hits(Traversal& traversal, const Sheet& sheet, std::uint64_t cou
             counts.shadows += occluded[i];
         }
         counts.rays += list.size();
-    }
+    });
 }
 
 } // namespace
@@ -148,6 +145,7 @@ Checks row_self_hits(StressRun& run) {
         checks.push_back(rays_check(list[i].name + ": not finite", counts.not_finite, counts.rays));
         run.done(static_cast<double>(i + 1) / static_cast<double>(list.size()));
     }
+    checks.push_back(host_check("self-hits", run.traversal()));
     return checks;
 }
 

@@ -23,7 +23,8 @@ const Program& StressRun::program(const std::string& file) {
 }
 
 Traversal& StressRun::traversal() {
-    if (!traversal_) traversal_.emplace(device, ProgramOptions{.lanes = device.device.lanes()});
+    if (!traversal_)
+        traversal_.emplace(device, ProgramOptions{.lanes = device.device.lanes()}, count(1, 8, 16));
     return *traversal_;
 }
 

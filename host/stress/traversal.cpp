@@ -2,18 +2,22 @@
 #include "host/stress/traversal.h"
 
 #include "host/cl/source.h"
-#include "host/render/device_scene.h"
+#include "host/oracle/wave_memory.h"
+
+#include <tbb/parallel_for.h>
 
 #include <sys/types.h> // ulong, as the kernels call it
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <stdexcept>
 
 namespace parhelion::stress {
 namespace {
 
 constexpr int segment = 2048;
+constexpr std::size_t batch = 1 << 17;
 
 template<class T>
 Buffer<T> device_copy(const RenderDevice& d, const char* name, const std::vector<T>& values) {
@@ -44,22 +48,107 @@ Answers same_answers(Answers packets, const Answers& streams) {
     return packets;
 }
 
+/// One behind the other.
+template<class Answer, class Trace>
+std::vector<Answer> in_batches(std::span<const TracedRay> rays, Trace trace) {
+    std::vector<Answer> all;
+    all.reserve(rays.size());
+    for (std::size_t first = 0; first < rays.size(); first += batch) {
+        std::vector<Answer> part = trace(rays.subspan(first, std::min(batch, rays.size() - first)));
+        all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+}
+
+/// Of those that `a` has.
+std::uint64_t differing_hits(const std::vector<TracedHit>& a, const std::vector<TracedHit>& b) {
+    std::uint64_t differing = 0;
+    for (std::size_t i = 0; i < a.size(); i++)
+        differing += std::memcmp(&a[i], &b[i], sizeof(TracedHit)) != 0;
+    return differing;
+}
+
 } // namespace
 
 struct Traversal::Sizes {
     std::size_t rays, segments;
     explicit Sizes(std::size_t n) : rays(n), segments((n + segment - 1) / segment) {}
     std::size_t stride() const { return segments * segment; }
+    /// Entries of each segment, twice: of paths and of shadow rays.
+    std::vector<int> counts() const {
+        std::vector<int> entries(2 * segments);
+        for (std::size_t i = 0; i < entries.size(); i++)
+            entries[i] = static_cast<int>(std::min<std::size_t>(segment, rays - i / 2 * segment));
+        return entries;
+    }
 };
 
-Traversal::Traversal(const RenderDevice& device, const ProgramOptions& options)
+/// What a kernel reads and writes: the state of paths or of shadow rays, and what those bring.
+struct Traversal::Work {
+    std::vector<float> state, results;
+
+    static void put_ray(std::vector<float>& state, std::size_t stride, std::size_t i,
+                        const TracedRay& r) {
+        const float values[] = {r.origin[0],    r.origin[1],    r.origin[2], r.direction[0],
+                                r.direction[1], r.direction[2], r.t_max};
+        for (std::size_t k = 0; k < std::size(values); k++)
+            state[k * stride + i] = values[k];
+    }
+
+    static Work of_paths(Rays rays, const Sizes& s) {
+        Work w{std::vector<float>(path_field_count * s.stride()), std::vector<float>(1)};
+        for (std::size_t i = 0; i < rays.size(); i++) {
+            put_ray(w.state, s.stride(), i, rays[i]);
+            w.state[path_excluded * s.stride() + i] = std::bit_cast<float>(rays[i].excluded);
+        }
+        return w;
+    }
+
+    static Work of_shadow_rays(Rays rays, const Sizes& s) {
+        Work w{std::vector<float>(shadow_field_count * s.stride()),
+               std::vector<float>(result_field_count * s.stride())};
+        for (std::size_t i = 0; i < rays.size(); i++) {
+            put_ray(w.state, s.stride(), i, rays[i]);
+            for (int channel = 0; channel < 3; channel++)
+                w.state[(shadow_r + channel) * s.stride() + i] = static_cast<float>(1 << channel);
+            w.state[shadow_slot * s.stride() + i] = std::bit_cast<float>(static_cast<int>(i));
+            w.state[shadow_excluded * s.stride() + i] = std::bit_cast<float>(rays[i].excluded);
+        }
+        return w;
+    }
+
+    std::vector<TracedHit> hits(const Sizes& s) const {
+        std::vector<TracedHit> list(s.rays);
+        for (std::size_t i = 0; i < s.rays; i++) {
+            auto word = [&](int field) { return state[field * s.stride() + i]; };
+            list[i] = {word(path_t), word(path_b1), word(path_b2),
+                       std::bit_cast<int>(word(path_primitive))};
+        }
+        return list;
+    }
+
+    std::vector<bool> blocked(const Sizes& s) const {
+        std::vector<bool> list(s.rays);
+        for (std::size_t i = 0; i < s.rays; i++) {
+            float r = results[i], g = results[s.stride() + i], b = results[2 * s.stride() + i];
+            list[i] = r == 0;
+            if (g != 2 * r || b != 4 * r || (r != 0 && r != 1))
+                throw std::runtime_error("wrong radiance arrived");
+        }
+        return list;
+    }
+};
+
+Traversal::Traversal(const RenderDevice& device, const ProgramOptions& options,
+                     std::size_t host_share)
     : d_(device), packets_(compile(device, with_streams(options, false))),
-      streams_(compile(device, with_streams(options, true))) {}
+      streams_(compile(device, with_streams(options, true))), host_share_(host_share) {}
 
 void Traversal::upload(const Bvh& bvh, int root) {
     nodes_ = Buffer<BvhNode>(d_.context, d_.queue, "nodes", bvh.nodes.data(), bvh.nodes.size());
     leaves_ = Buffer<BvhLine>(d_.context, d_.queue, "leaves", bvh.leaves.data(), bvh.leaves.size());
-    root_ = root;
+    scene_.bvh = bvh;
+    scene_.root = root;
     extent_ = bvh_extent(bvh, root);
 }
 
@@ -69,80 +158,85 @@ void Traversal::upload(std::span<const PrimitiveRecord> primitives) {
     upload(bvh, root);
 }
 
-std::vector<TracedHit> Traversal::closest(std::span<const TracedRay> rays) const {
-    return same_answers(closest(packets_, rays), closest(streams_, rays));
+std::vector<TracedHit> Traversal::closest(Rays rays) {
+    return in_batches<TracedHit>(rays, [&](Rays part) { return closest_in_batch(part); });
 }
 
-std::vector<bool> Traversal::occluded(std::span<const TracedRay> rays) const {
-    return same_answers(occluded(packets_, rays), occluded(streams_, rays));
+std::vector<bool> Traversal::occluded(Rays rays) {
+    return in_batches<bool>(rays, [&](Rays part) { return occluded_in_batch(part); });
 }
 
-std::vector<TracedHit> Traversal::closest(const Program& program,
-                                          std::span<const TracedRay> rays) const {
+std::vector<TracedHit> Traversal::closest_in_batch(Rays rays) {
     Sizes s(rays.size());
-    std::vector<float> state(path_field_count * s.stride());
-    for (std::size_t i = 0; i < rays.size(); i++) {
-        const TracedRay& r = rays[i];
-        const float values[] = {r.origin[0],    r.origin[1],    r.origin[2], r.direction[0],
-                                r.direction[1], r.direction[2], r.t_max};
-        for (std::size_t k = 0; k < std::size(values); k++)
-            state[k * s.stride() + i] = values[k];
-        state[path_excluded * s.stride() + i] = std::bit_cast<float>(r.excluded);
-    }
-    Buffer<float> path_state = device_copy(d_, "path_state", state);
-    run(program.kernel("intersect"), s, path_state, path_state, path_state);
-    state = host_copy(d_, path_state);
-    std::vector<TracedHit> hits(rays.size());
-    for (std::size_t i = 0; i < rays.size(); i++) {
-        auto word = [&](int field) { return state[field * s.stride() + i]; };
-        hits[i] = {word(path_t), word(path_b1), word(path_b2),
-                   std::bit_cast<int>(word(path_primitive))};
+    auto trace = [&](const Program& program) {
+        Work work = Work::of_paths(rays, s);
+        run_on_device(program, "intersect", s, work);
+        return work.hits(s);
+    };
+    std::vector<TracedHit> hits = same_answers(trace(packets_), trace(streams_));
+    if (host_share_ > 0) {
+        Rays some = rays.first((rays.size() + host_share_ - 1) / host_share_);
+        Sizes part(some.size());
+        Work work = Work::of_paths(some, part);
+        run_on_host(Stage::intersect, part, work);
+        host_answers_.rays += part.rays;
+        host_answers_.differing += differing_hits(work.hits(part), hits);
     }
     return hits;
 }
 
-std::vector<bool> Traversal::occluded(const Program& program,
-                                      std::span<const TracedRay> rays) const {
+std::vector<bool> Traversal::occluded_in_batch(Rays rays) {
     Sizes s(rays.size());
-    std::vector<float> state(shadow_field_count * s.stride());
-    for (std::size_t i = 0; i < rays.size(); i++) {
-        const TracedRay& r = rays[i];
-        const float values[] = {r.origin[0],
-                                r.origin[1],
-                                r.origin[2],
-                                r.direction[0],
-                                r.direction[1],
-                                r.direction[2],
-                                r.t_max,
-                                1,
-                                2,
-                                4};
-        for (std::size_t k = 0; k < std::size(values); k++)
-            state[k * s.stride() + i] = values[k];
-        state[shadow_slot * s.stride() + i] = std::bit_cast<float>(static_cast<int>(i));
-        state[shadow_excluded * s.stride() + i] = std::bit_cast<float>(r.excluded);
-    }
-    Buffer<float> shadow_state = device_copy(d_, "shadow_state", state);
-    Buffer<float> results(d_.context, "results", result_field_count * s.stride());
-    results.fill_zero(d_.queue);
-    run(program.kernel("shadow"), s, shadow_state, shadow_state, results);
-    std::vector<float> found = host_copy(d_, results);
-    std::vector<bool> blocked(rays.size());
-    for (std::size_t i = 0; i < rays.size(); i++) {
-        float r = found[i], g = found[s.stride() + i], b = found[2 * s.stride() + i];
-        blocked[i] = r == 0;
-        if (g != 2 * r || b != 4 * r || (r != 0 && r != 1))
-            throw std::runtime_error("wrong radiance arrived");
+    auto trace = [&](const Program& program) {
+        Work work = Work::of_shadow_rays(rays, s);
+        run_on_device(program, "shadow", s, work);
+        return work.blocked(s);
+    };
+    std::vector<bool> blocked = same_answers(trace(packets_), trace(streams_));
+    if (host_share_ > 0) {
+        Rays some = rays.first((rays.size() + host_share_ - 1) / host_share_);
+        Sizes part(some.size());
+        Work work = Work::of_shadow_rays(some, part);
+        run_on_host(Stage::shadow, part, work);
+        std::vector<bool> host = work.blocked(part);
+        host_answers_.rays += part.rays;
+        for (std::size_t i = 0; i < host.size(); i++)
+            host_answers_.differing += host[i] != blocked[i];
     }
     return blocked;
 }
 
-void Traversal::run(cl::Kernel kernel, const Sizes& s, const Buffer<float>& path_state,
-                    const Buffer<float>& shadow_state, const Buffer<float>& results) const {
-    std::vector<int> entries(2 * s.segments);
-    for (std::size_t i = 0; i < entries.size(); i++)
-        entries[i] = static_cast<int>(std::min<std::size_t>(segment, s.rays - i / 2 * segment));
-    Buffer<int> counts = device_copy(d_, "counts", entries);
+RenderParams Traversal::params(const Sizes& s) const {
+    RenderParams params{};
+    params.state_stride = params.result_stride = static_cast<int>(s.stride());
+    params.segment_size = params.segment_stride = segment;
+    params.root = params.camera_root = scene_.root;
+    params.extent = extent_;
+    return params;
+}
+
+void Traversal::run_on_host(Stage stage, const Sizes& s, Work& work) const {
+    WaveMemory<float> memory{WorkSizes{}};
+    memory.counts = s.counts();
+    memory.statistics.resize(statistic_count * s.segments);
+    memory.results = std::move(work.results);
+    auto& state = stage == Stage::shadow ? memory.shadow_state : memory.path_state;
+    state = std::move(work.state);
+    std::uint64_t features = ~feature_bit(feature_ray_streams);
+    HostLaunch<float> launch{scene_arrays(scene_), params(s), features, WaveParams{}, memory};
+    tbb::parallel_for(0, static_cast<int>(s.segments),
+                      [&](int number) { run_work_item(stage, launch, 1, number); });
+    work.state = std::move(state);
+    work.results = std::move(memory.results);
+}
+
+void Traversal::run_on_device(const Program& program, const char* name, const Sizes& s,
+                              Work& work) const {
+    cl::Kernel kernel = program.kernel(name);
+    Buffer<float> path_state = device_copy(d_, "path_state", work.state),
+                  results = device_copy(d_, "results", work.results);
+    const Buffer<float>& shadow_state = path_state; // each kernel takes its own
+    Buffer<int> counts = device_copy(d_, "counts", s.counts());
     Buffer<ulong> statistics =
         device_copy(d_, "statistics", std::vector<ulong>(statistic_count * s.segments));
     const Buffer<BvhNode>& bvh_nodes = nodes_;
@@ -150,21 +244,18 @@ void Traversal::run(cl::Kernel kernel, const Sizes& s, const Buffer<float>& path
     // Not read by these kernels.
     Buffer<int> primitives, vertices, materials, lights, light_nodes, light_leaves, energy_tables,
         filter_table, filter_values, bad_samples, film;
-    RenderParams params{};
-    params.state_stride = params.result_stride = static_cast<int>(s.stride());
-    params.segment_size = params.segment_stride = segment;
-    params.root = params.camera_root = root_;
-    params.extent = extent_;
     cl_uint argument = 0;
 #define SET_BUFFER(type, name) kernel.setArg(argument++, name.handle());
     SCENE_BUFFERS(SET_BUFFER)
     WORK_BUFFERS(SET_BUFFER)
 #undef SET_BUFFER
-    kernel.setArg(argument++, params);
+    kernel.setArg(argument++, params(s));
     kernel.setArg(argument++, WaveParams{});
     kernel.setArg(argument++, 1);
     d_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(s.segments), cl::NDRange(1));
     d_.queue.finish();
+    work.state = host_copy(d_, path_state);
+    work.results = host_copy(d_, results);
 }
 
 } // namespace parhelion::stress

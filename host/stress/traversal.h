@@ -1,14 +1,18 @@
-// Many rays at once through the kernels `intersect` and `shadow`, on path and shadow states filled
-// by hand.
+// Any number of rays through the kernels `intersect` and `shadow`, on path and shadow states filled
+// by hand: on the device, and compiled as C++.
 #pragma once
 
 #include "host/bvh/bvh.h"
 #include "host/cl/buffer.h"
+#include "host/render/device_scene.h"
 #include "host/render/render_device.h"
+#include "host/render/stages.h"
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace parhelion::stress {
@@ -26,33 +30,50 @@ struct TracedHit {
     bool operator==(const TracedHit&) const = default;
 };
 
+/// Rays that went through the kernels as C++ too, and answers of other bits than the device's.
+struct HostAnswers {
+    std::uint64_t rays = 0, differing = 0;
+};
+
 /// A tree on the device, and the two kernels that walk it: all rays go through packets and through
-/// streams, whose answers must be the same bits.
+/// streams, whose answers must be the same bits. A batch at a time: memory does not grow with the
+/// rays.
 class Traversal {
 public:
-    Traversal(const RenderDevice& device, const ProgramOptions& options);
+    /// Of every batch the first of `host_share` parts goes through the kernels as C++ as well; 0:
+    /// none of it.
+    Traversal(const RenderDevice& device, const ProgramOptions& options,
+              std::size_t host_share = 0);
 
     void upload(const Bvh& bvh, int root);
     /// A tree over these alone.
     void upload(std::span<const PrimitiveRecord> primitives);
 
     /// Throws std::runtime_error where packets and streams differ; so does `occluded`.
-    std::vector<TracedHit> closest(std::span<const TracedRay> rays) const;
+    std::vector<TracedHit> closest(std::span<const TracedRay> rays);
     /// Whether something is in the way: ray i carries the radiance (1, 2, 4) to slot i.
-    std::vector<bool> occluded(std::span<const TracedRay> rays) const;
+    std::vector<bool> occluded(std::span<const TracedRay> rays);
+    /// Since the last call.
+    HostAnswers take_host_answers() { return std::exchange(host_answers_, {}); }
 
 private:
     struct Sizes;
-    std::vector<TracedHit> closest(const Program& program, std::span<const TracedRay> rays) const;
-    std::vector<bool> occluded(const Program& program, std::span<const TracedRay> rays) const;
-    void run(cl::Kernel kernel, const Sizes& s, const Buffer<float>& path_state,
-             const Buffer<float>& shadow_state, const Buffer<float>& results) const;
+    struct Work;
+    using Rays = std::span<const TracedRay>;
+    std::vector<TracedHit> closest_in_batch(Rays rays);
+    std::vector<bool> occluded_in_batch(Rays rays);
+    void run_on_device(const Program& program, const char* kernel, const Sizes& s,
+                       Work& work) const;
+    void run_on_host(Stage stage, const Sizes& s, Work& work) const;
+    RenderParams params(const Sizes& s) const;
 
     const RenderDevice& d_;
     Program packets_, streams_;
+    std::size_t host_share_;
+    HostAnswers host_answers_;
     Buffer<BvhNode> nodes_;
     Buffer<BvhLine> leaves_;
-    int root_ = 0;
+    DeviceScene scene_; ///< the host's: a tree and nothing else
     float extent_ = 0;
 };
 

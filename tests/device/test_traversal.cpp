@@ -39,7 +39,7 @@ struct Differences {
     int hits = 0, t = 0, primitive = 0, occlusion = 0;
 };
 
-Differences differences(const Traversal& traversal, const std::vector<rays::Ray>& rays,
+Differences differences(Traversal& traversal, const std::vector<rays::Ray>& rays,
                         const std::vector<rays::Hit>& truth) {
     std::vector<TestRay> test_rays;
     test_rays.reserve(rays.size());
