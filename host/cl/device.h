@@ -25,6 +25,8 @@ struct Device {
     bool keeps_programs = false;
     /// Compiler options that only save time; what does not compile with them is compiled without.
     std::string quick_options;
+    /// The driver takes calls from the program's first thread alone.
+    bool one_thread = false;
 
     /// Values a lane-generic kernel handles at once here: 16 or 8 on CPUs, 1 elsewhere.
     int lanes() const;

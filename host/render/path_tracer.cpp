@@ -32,8 +32,8 @@ void trace_wave(WaveStream& stream, const WaveParams& wave, const WorkSizes& siz
     stream.collect_times();
 }
 
-/// A host thread for each stream: while one waits for the last work-items of a stage, the device
-/// has the other's to do.
+/// A host thread for each of several streams: while one waits for the last work-items of a stage,
+/// the device has the other's to do.
 void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
                  const RenderParams& params, bool next_event, Progress& progress) {
     auto start = Clock::now();
@@ -57,8 +57,9 @@ void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
         }
     };
     std::vector<std::future<void>> streams;
+    auto policy = pipeline.streams().size() == 1 ? std::launch::deferred : std::launch::async;
     for (WaveStream& stream : pipeline.streams())
-        streams.push_back(std::async(std::launch::async, run, std::ref(stream)));
+        streams.push_back(std::async(policy, run, std::ref(stream)));
     for (auto& stream : streams)
         stream.wait();
     for (auto& stream : streams)
@@ -68,8 +69,10 @@ void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
 /// Streams for the device to choose from: two where several cores would wait for each other.
 int stream_count(const WorkSplit& split, const Device& device) {
     if (split.streams > 0) return split.streams;
-    return device.is_cpu && device.compute_units > 1 && split.pool_paths >= 2 * BLOCK_PIXELS ? 2
-                                                                                             : 1;
+    return device.is_cpu && !device.one_thread && device.compute_units > 1 &&
+                   split.pool_paths >= 2 * BLOCK_PIXELS
+               ? 2
+               : 1;
 }
 
 } // namespace

@@ -127,9 +127,10 @@ StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
     std::vector<std::future<Compiled>> jobs;
     jobs.reserve(programs.size());
     for (const Wanted& w : programs)
-        jobs.push_back(std::async(
-            std::launch::async, compile, std::cref(d), std::cref(w), options.work_group_size,
-            &w == &programs.back() ? std::exchange(beside, {}) : std::nullopt));
+        jobs.push_back(
+            std::async(d.device.one_thread ? std::launch::deferred : std::launch::async, compile,
+                       std::cref(d), std::cref(w), options.work_group_size,
+                       &w == &programs.back() ? std::exchange(beside, {}) : std::nullopt));
     std::vector<Compiled> compiled;
     compiled.reserve(jobs.size());
     for (auto& job : jobs)
