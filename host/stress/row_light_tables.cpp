@@ -3,6 +3,7 @@
 #include "host/stress/rows.h"
 
 #include "host/oracle/device_functions.h"
+#include "host/parallel.h"
 #include "host/render/filter_table.h"
 #include "host/scene/mitsuba/scene_builder.h"
 #include "host/scene/mitsuba/xml_file.h"
