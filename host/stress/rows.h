@@ -19,6 +19,8 @@ namespace parhelion::stress {
     X(light_tables,   "Statistics", "Lights of very unequal power, and filters: shares, draws and densities agree") \
     X(accumulation,   "Sums", "A pixel's mean and variance do not drift with its samples") \
     X(density,        "Statistics", "Samples of every material follow its density (chi-square, Sidak)") \
+    X(sampling_ends,  "Statistics", "Every sampling routine at the ends of its random numbers: finite, with a density or no sample") \
+    X(roulette,       "Statistics", "With Russian roulette and without it images have the same mean") \
     X(furnace,        "Statistics", "No material returns more than it receives") \
     X(white_furnace,  "Statistics", "Rough materials with energy compensation return what they receive") \
     X(shading_normals, "Images", "Coarse spheres with smooth normals: no light from below the true surface, no more than there is") \
