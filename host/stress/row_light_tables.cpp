@@ -288,7 +288,7 @@ Checks filters(StressRun& run) {
         }
         for (double m : masses)
             expected.push_back(static_cast<double>(count) * m / whole);
-        auto check = [&](const char* what, double value, double target) {
+        auto check = [&, name = name](const char* what, double value, double target) {
             checks.push_back(share_check("", value, target, count));
             checks.back().name = fmt::format("filter {}: {}", name, what);
         };

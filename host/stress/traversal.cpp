@@ -3,8 +3,7 @@
 
 #include "host/cl/source.h"
 #include "host/oracle/wave_memory.h"
-
-#include <tbb/parallel_for.h>
+#include "host/parallel.h"
 
 #include <sys/types.h> // ulong, as the kernels call it
 
@@ -224,8 +223,9 @@ void Traversal::run_on_host(Stage stage, const Sizes& s, Work& work) const {
     state = std::move(work.state);
     std::uint64_t features = ~feature_bit(feature_ray_streams);
     HostLaunch<float> launch{scene_arrays(scene_), params(s), features, WaveParams{}, memory};
-    tbb::parallel_for(0, static_cast<int>(s.segments),
-                      [&](int number) { run_work_item(stage, launch, 1, number); });
+    parallel_for(s.segments, [&](std::size_t number) {
+        run_work_item(stage, launch, 1, static_cast<int>(number));
+    });
     work.state = std::move(state);
     work.results = std::move(memory.results);
 }
