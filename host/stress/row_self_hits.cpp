@@ -25,9 +25,10 @@ f32::SurfaceInteraction some_point(const PrimitiveRecord& triangle, Random& rand
                                  static_cast<float>(b2));
 }
 
-/// About n, half of them within 1e-6 to 1 of grazing.
+/// About n, half of them within 1e-6 to 1 of grazing. Nearer to it rounding decides which side a
+/// direction is on.
 f32::vec3 some_direction(f32::vec3 n, Random& random) {
-    double z = random.bits() % 2 ? random.unit() : random.log_between(1e-6, 1),
+    double z = random.bits() % 2 ? random.between(1e-6, 1) : random.log_between(1e-6, 1),
            phi = random.between(0, 2 * M_PI), r = std::sqrt(1 - z * z);
     return f32::to_world(f32::frame_from_normal(n),
                          vec<F32>(r * std::cos(phi), r * std::sin(phi), z));
