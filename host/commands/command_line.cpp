@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace parhelion {
 namespace {
@@ -51,22 +52,35 @@ void add_subcommand(CLI::App& app, const Subcommand& subcommand, int& exit_code)
 
 } // namespace
 
-int run_command_line(const CommandLine& command_line, std::vector<std::string> arguments) {
-    CLI::App app(command_line.summary, "parhelion");
-    app.require_subcommand(1);
-    app.set_version_flag("--version", command_line.version);
-    app.footer(command_line.footer);
-    int exit_code = 0;
+struct CommandLineReader::App : CLI::App {
+    using CLI::App::App;
+};
+
+CommandLineReader::CommandLineReader(const CommandLine& command_line)
+    : app_(std::make_unique<App>(command_line.summary, "parhelion")) {
+    app_->require_subcommand(1);
+    app_->set_version_flag("--version", command_line.version);
+    app_->footer(command_line.footer);
     for (const Subcommand& subcommand : command_line.subcommands)
-        add_subcommand(app, subcommand, exit_code);
+        add_subcommand(*app_, subcommand, exit_code_);
+}
+
+CommandLineReader::~CommandLineReader() = default;
+
+int CommandLineReader::run(std::vector<std::string> arguments) {
+    exit_code_ = 0;
     std::reverse(arguments.begin(), arguments.end()); // as CLI::App::parse wants them
     try {
-        app.parse(arguments);
+        app_->parse(arguments);
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return app.exit(e); // help or version
+        if (e.get_exit_code() == 0) return app_->exit(e); // help or version
         throw InputError(e.what());
     }
-    return exit_code;
+    return exit_code_;
+}
+
+int run_command_line(const CommandLine& command_line, std::vector<std::string> arguments) {
+    return CommandLineReader(command_line).run(std::move(arguments));
 }
 
 } // namespace parhelion

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -45,9 +46,28 @@ struct CommandLine {
     std::vector<Subcommand> subcommands{};
 };
 
-/// Fills the targets of the subcommand named in `arguments` (without the program's name) and runs
-/// it; prints help and version where asked for. Returns the exit code. Throws InputError for a
-/// command line that cannot be understood; what the subcommand throws passes through.
+/// Reads command lines, one after the other. To be made takes much longer than to read one.
+class CommandLineReader {
+public:
+    /// Of `command_line`, which must outlive it.
+    explicit CommandLineReader(const CommandLine& command_line);
+    ~CommandLineReader();
+    CommandLineReader(const CommandLineReader&) = delete;
+    CommandLineReader& operator=(const CommandLineReader&) = delete;
+
+    /// Fills the targets of the subcommand named in `arguments` (without the program's name) and
+    /// runs it; prints help and version where asked for. Targets of options that are not given stay
+    /// as they are. Returns the exit code. Throws InputError for a command line that cannot be
+    /// understood; what the subcommand throws passes through.
+    int run(std::vector<std::string> arguments);
+
+private:
+    struct App; // the library's
+    std::unique_ptr<App> app_;
+    int exit_code_ = 0;
+};
+
+/// Reads one command line and runs it.
 int run_command_line(const CommandLine& command_line, std::vector<std::string> arguments);
 
 } // namespace parhelion

@@ -58,24 +58,38 @@ int use_compare(const CompareOptions& options) {
     return 0;
 }
 
-} // namespace
+/// Made once: that takes several times as long as to read a command line.
+class Commands {
+public:
+    void run(std::string_view text) {
+        render_ = {};
+        compare_ = {};
+        reader_.run(lines_of(text));
+    }
 
-int fuzz_options(const std::uint8_t* data, std::size_t size) {
-    RenderCommand render;
-    CompareOptions compare;
-    const CommandLine line{
+private:
+    RenderCommand render_;
+    CompareOptions compare_;
+    CommandLine line_{
         .summary = "summary",
         .footer = "footer",
         .version = [] { return std::string("version"); },
         .subcommands = {{.name = "render",
-                         .options = render_options(render),
-                         .run = [&] { return use_render(render); }},
+                         .options = render_options(render_),
+                         .run = [this] { return use_render(render_); }},
                         {.name = "compare",
-                         .options = compare_options(compare),
-                         .run = [&] { return use_compare(compare); }}},
+                         .options = compare_options(compare_),
+                         .run = [this] { return use_compare(compare_); }}},
     };
+    CommandLineReader reader_{line_};
+};
+
+} // namespace
+
+int fuzz_options(const std::uint8_t* data, std::size_t size) {
+    static Commands commands;
     const QuietOutput quiet;
-    return answer_or_refusal([&] { run_command_line(line, lines_of(as_text(data, size))); });
+    return answer_or_refusal([&] { commands.run(as_text(data, size)); });
 }
 
 } // namespace parhelion::fuzz
