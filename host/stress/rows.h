@@ -24,6 +24,9 @@ namespace parhelion::stress {
     X(furnace,        "Statistics", "No material returns more than it receives") \
     X(white_furnace,  "Statistics", "Rough materials with energy compensation return what they receive") \
     X(shading_normals, "Images", "Coarse spheres with smooth normals: no light from below the true surface, no more than there is") \
+    X(splitting,      "Images", "The image is the same bits however the work is done") \
+    X(scale_and_move, "Images", "A scene scaled by a power of two or moved exactly gives the same bits") \
+    X(scale_and_turn, "Images", "A scene of any other size, turned: the same means (Welch)") \
     X(closed_forms,   "Images", "Scenes of known answers over many seeds: no bias, and errors as large as they say")
 // clang-format on
 

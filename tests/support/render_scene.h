@@ -4,6 +4,7 @@
 #include "host/commands/render.h"
 #include "host/render/path_tracer.h"
 #include "host/scene/load.h"
+#include "host/stress/image_figures.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +13,8 @@
 #include <vector>
 
 namespace parhelion::test {
+
+using stress::mean_rgb;
 
 /// The device of this test process: PARHELION_DEVICE, or the default one.
 inline RenderDevice& test_device() {
@@ -37,17 +40,6 @@ inline Scene load(const RenderCommand& command) {
 inline RenderResult render_quietly(const Scene& scene, const RenderOptions& options = {}) {
     Progress quiet(Progress::Mode::quiet);
     return render(scene, test_device(), options, quiet);
-}
-
-/// Mean of channels R, G, B over all pixels.
-inline std::array<double, 3> mean_rgb(const Image& image) {
-    std::array<double, 3> mean{};
-    for (int c = 0; c < 3; c++) {
-        for (float v : find_channel(image, std::string(1, "RGB"[c]))->values)
-            mean[c] += v;
-        mean[c] /= static_cast<double>(image.pixel_count());
-    }
-    return mean;
 }
 
 } // namespace parhelion::test
