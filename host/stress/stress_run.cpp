@@ -24,7 +24,8 @@ const Program& StressRun::program(const std::string& file) {
 
 Traversal& StressRun::traversal() {
     if (!traversal_)
-        traversal_.emplace(device, ProgramOptions{.lanes = device.device.lanes()}, count(1, 32, 64));
+        traversal_.emplace(device, ProgramOptions{.lanes = device.device.lanes()},
+                           count(1, 32, 64));
     return *traversal_;
 }
 
