@@ -84,7 +84,7 @@ Rows transposed(const Rows& rows) {
 /// Computed values in rows of equal azimuth, one row where the material is isotropic.
 Rows knots(const RoughSide& side, int azimuths, int cosines) {
     Rows rows(static_cast<std::size_t>(azimuths), std::vector<double>(cosines));
-    parallel_for(static_cast<std::size_t>(azimuths * cosines), [&](std::size_t n) {
+    parallel_for(rows.size() * static_cast<std::size_t>(cosines), [&](std::size_t n) {
         int number = static_cast<int>(n), row = number / cosines, column = number % cosines;
         double azimuth = azimuths > 1 ? row / (azimuths - 1.0) : 0.0;
         f64::vec3 wo = direction_at(side, column / (cosines - 1.0), azimuth);
