@@ -143,9 +143,9 @@ Check share_check(const std::string& name, double value, double target, std::uin
 /// By power alone, where the shares are known from what the author wrote.
 Checks by_power(StressRun& run) {
     DeviceScene scene = make_device_scene(points_hall(), LightChoice::power);
-    std::vector<double> exact;
+    std::vector<double> exact(light_count);
     for (int k = 0; k < light_count; k++)
-        exact.push_back(power_of(k));
+        exact[k] = power_of(k);
     double total = sum_of(exact), table = 0;
     Worst share;
     for (std::size_t k = 0; k < exact.size() && k < scene.lights.size(); k++) {
