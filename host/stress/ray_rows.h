@@ -27,7 +27,7 @@ inline Check host_check(const std::string& row, Traversal& traversal) {
                       answers.differing, answers.rays);
 }
 
-/// Calls trace with so many rays of make(number) at a time.
+/// Calls trace with all rays make(number), a batch at a time: memory does not grow with them.
 template<class Make, class Trace>
 void in_batches(std::uint64_t count, Make make, Trace trace) {
     constexpr std::uint64_t batch = 1 << 17;

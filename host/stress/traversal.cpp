@@ -16,7 +16,6 @@ namespace parhelion::stress {
 namespace {
 
 constexpr int segment = 2048;
-constexpr std::size_t batch = 1 << 17;
 
 template<class T>
 Buffer<T> device_copy(const RenderDevice& d, const char* name, const std::vector<T>& values) {
@@ -47,24 +46,18 @@ Answers same_answers(Answers packets, const Answers& streams) {
     return packets;
 }
 
-/// One behind the other.
-template<class Answer, class Trace>
-std::vector<Answer> in_batches(std::span<const TracedRay> rays, Trace trace) {
-    std::vector<Answer> all;
-    all.reserve(rays.size());
-    for (std::size_t first = 0; first < rays.size(); first += batch) {
-        std::vector<Answer> part = trace(rays.subspan(first, std::min(batch, rays.size() - first)));
-        all.insert(all.end(), part.begin(), part.end());
-    }
-    return all;
+bool same_bits(const TracedHit& a, const TracedHit& b) {
+    return std::memcmp(&a, &b, sizeof(TracedHit)) == 0;
 }
+bool same_bits(bool a, bool b) { return a == b; }
 
 /// Of those that `a` has.
-std::uint64_t differing_hits(const std::vector<TracedHit>& a, const std::vector<TracedHit>& b) {
-    std::uint64_t differing = 0;
+template<class Answer>
+std::uint64_t differing(const std::vector<Answer>& a, const std::vector<Answer>& b) {
+    std::uint64_t count = 0;
     for (std::size_t i = 0; i < a.size(); i++)
-        differing += std::memcmp(&a[i], &b[i], sizeof(TracedHit)) != 0;
-    return differing;
+        count += !same_bits(a[i], b[i]);
+    return count;
 }
 
 } // namespace
@@ -138,6 +131,15 @@ struct Traversal::Work {
     }
 };
 
+/// What is asked of rays: a kernel, the state it starts from, and the answers in what it leaves.
+template<class Answer>
+struct Traversal::Question {
+    const char* kernel;
+    Stage stage;
+    Work (*state)(Rays, const Sizes&);
+    std::vector<Answer> (Work::*read)(const Sizes&) const;
+};
+
 Traversal::Traversal(const RenderDevice& device, const ProgramOptions& options,
                      std::size_t host_share)
     : d_(device), packets_(compile(device, with_streams(options, false))),
@@ -157,52 +159,32 @@ void Traversal::upload(std::span<const PrimitiveRecord> primitives) {
     upload(bvh, root);
 }
 
+template<class Answer>
+std::vector<Answer> Traversal::answers(Rays rays, const Question<Answer>& q) {
+    Sizes s(rays.size());
+    auto ask = [&](const Program& program) {
+        Work work = q.state(rays, s);
+        run_on_device(program, q.kernel, s, work);
+        return (work.*q.read)(s);
+    };
+    std::vector<Answer> found = same_answers(ask(packets_), ask(streams_));
+    if (host_share_ > 0) {
+        Rays some = rays.first((rays.size() + host_share_ - 1) / host_share_);
+        Sizes part(some.size());
+        Work work = q.state(some, part);
+        run_on_host(q.stage, part, work);
+        host_answers_.rays += part.rays;
+        host_answers_.differing += differing((work.*q.read)(part), found);
+    }
+    return found;
+}
+
 std::vector<TracedHit> Traversal::closest(Rays rays) {
-    return in_batches<TracedHit>(rays, [&](Rays part) { return closest_in_batch(part); });
+    return answers<TracedHit>(rays, {"intersect", Stage::intersect, Work::of_paths, &Work::hits});
 }
 
 std::vector<bool> Traversal::occluded(Rays rays) {
-    return in_batches<bool>(rays, [&](Rays part) { return occluded_in_batch(part); });
-}
-
-std::vector<TracedHit> Traversal::closest_in_batch(Rays rays) {
-    Sizes s(rays.size());
-    auto trace = [&](const Program& program) {
-        Work work = Work::of_paths(rays, s);
-        run_on_device(program, "intersect", s, work);
-        return work.hits(s);
-    };
-    std::vector<TracedHit> hits = same_answers(trace(packets_), trace(streams_));
-    if (host_share_ > 0) {
-        Rays some = rays.first((rays.size() + host_share_ - 1) / host_share_);
-        Sizes part(some.size());
-        Work work = Work::of_paths(some, part);
-        run_on_host(Stage::intersect, part, work);
-        host_answers_.rays += part.rays;
-        host_answers_.differing += differing_hits(work.hits(part), hits);
-    }
-    return hits;
-}
-
-std::vector<bool> Traversal::occluded_in_batch(Rays rays) {
-    Sizes s(rays.size());
-    auto trace = [&](const Program& program) {
-        Work work = Work::of_shadow_rays(rays, s);
-        run_on_device(program, "shadow", s, work);
-        return work.blocked(s);
-    };
-    std::vector<bool> blocked = same_answers(trace(packets_), trace(streams_));
-    if (host_share_ > 0) {
-        Rays some = rays.first((rays.size() + host_share_ - 1) / host_share_);
-        Sizes part(some.size());
-        Work work = Work::of_shadow_rays(some, part);
-        run_on_host(Stage::shadow, part, work);
-        std::vector<bool> host = work.blocked(part);
-        host_answers_.rays += part.rays;
-        for (std::size_t i = 0; i < host.size(); i++)
-            host_answers_.differing += host[i] != blocked[i];
-    }
-    return blocked;
+    return answers<bool>(rays, {"shadow", Stage::shadow, Work::of_shadow_rays, &Work::blocked});
 }
 
 RenderParams Traversal::params(const Sizes& s) const {

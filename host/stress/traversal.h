@@ -1,4 +1,4 @@
-// Any number of rays through the kernels `intersect` and `shadow`, on path and shadow states filled
+// Rays through the kernels `intersect` and `shadow`, on path and shadow states filled
 // by hand: on the device, and compiled as C++.
 #pragma once
 
@@ -36,12 +36,11 @@ struct HostAnswers {
 };
 
 /// A tree on the device, and the two kernels that walk it: all rays go through packets and through
-/// streams, whose answers must be the same bits. A batch at a time: memory does not grow with the
-/// rays.
+/// streams, whose answers must be the same bits. Memory grows with the rays of a call.
 class Traversal {
 public:
-    /// Of every batch the first of `host_share` parts goes through the kernels as C++ as well; 0:
-    /// none of it.
+    /// Of the rays of every call the first of `host_share` parts goes through the kernels as C++ as
+    /// well; 0: none of it.
     Traversal(const RenderDevice& device, const ProgramOptions& options,
               std::size_t host_share = 0);
 
@@ -60,8 +59,10 @@ private:
     struct Sizes;
     struct Work;
     using Rays = std::span<const TracedRay>;
-    std::vector<TracedHit> closest_in_batch(Rays rays);
-    std::vector<bool> occluded_in_batch(Rays rays);
+    template<class Answer>
+    struct Question;
+    template<class Answer>
+    std::vector<Answer> answers(Rays rays, const Question<Answer>& question);
     void run_on_device(const Program& program, const char* kernel, const Sizes& s,
                        Work& work) const;
     void run_on_host(Stage stage, const Sizes& s, Work& work) const;
