@@ -4,6 +4,7 @@
 #include "host/commands/render.h"
 #include "host/error.h"
 #include "host/render/device_scene.h"
+#include "host/render/kind_names.h"
 #include "host/render/report.h"
 #include "host/scene/load.h"
 
@@ -23,11 +24,6 @@ struct InfoCommand {
     std::vector<std::string> definitions;
     bool energy_compensation = true, allow_outside = false, json = false;
 };
-
-#define KIND_NAME_MATERIAL(name, sides) #name,
-constexpr std::array material_names{MATERIALS(KIND_NAME_MATERIAL)};
-#define KIND_NAME(name) #name,
-constexpr std::array emitter_names{EMITTERS(KIND_NAME)};
 
 nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
     std::map<std::string, int> shapes, materials, lights;

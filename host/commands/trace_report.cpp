@@ -1,5 +1,6 @@
 // What `parhelion render --trace` prints.
 #include "host/commands/trace_report.h"
+#include "host/render/kind_names.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,11 +12,6 @@ namespace parhelion {
 namespace {
 
 using nlohmann::json;
-
-#define KIND_NAME_MATERIAL(name, sides) #name,
-constexpr std::array material_names{MATERIALS(KIND_NAME_MATERIAL)};
-#define KIND_NAME(name) #name,
-constexpr std::array emitter_names{EMITTERS(KIND_NAME)};
 
 /// JSON has no infinities.
 template<class Real>

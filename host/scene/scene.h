@@ -188,7 +188,9 @@ struct Camera {
 enum class PixelFormat { luminance, luminance_alpha, rgb, rgba, xyz, xyza };
 enum class ComponentFormat { float16, float32, uint32 };
 
-enum class FilterKind { box, tent, gaussian, mitchell, catmullrom, lanczos };
+#define FILTER_KINDS(X) X(box) X(tent) X(gaussian) X(mitchell) X(catmullrom) X(lanczos)
+#define FILTER_KIND_ENUM(name) name,
+enum class FilterKind { FILTER_KINDS(FILTER_KIND_ENUM) };
 
 /// Separable reconstruction filter; the parameters a kind does not have are unused.
 struct ReconstructionFilter {

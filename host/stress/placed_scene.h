@@ -1,7 +1,7 @@
 // A scene in another place, turned and of another size.
 #pragma once
 
-#include "host/scene/scene.h"
+#include "host/stress/every_kind_scene.h"
 
 #include <glm/mat3x3.hpp>
 
@@ -98,6 +98,16 @@ inline Scene with_coarse_places(Scene scene) {
     glm::dvec3 camera(scene.camera.to_world[3]);
     snap(camera);
     scene.camera.to_world[3] = glm::dvec4(camera, 1);
+    return scene;
+}
+
+/// A small scene of every kind, without AOVs, for moves that are exact.
+inline Scene movable_scene() {
+    Scene scene = with_coarse_places(every_kind_scene());
+    scene.film.width = scene.film.crop_width = scene.film.height = scene.film.crop_height = 16;
+    scene.camera.fov_degrees = 90; // some sky beside the walls
+    scene.sampler.samples_per_pixel = 8;
+    scene.integrator.aovs.clear();
     return scene;
 }
 

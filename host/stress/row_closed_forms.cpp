@@ -3,9 +3,9 @@
 #include "host/stress/rows.h"
 
 #include "host/error.h"
-#include "host/render/path_tracer.h"
 #include "host/scene/load.h"
 #include "host/stress/closed_form_truth.h"
+#include "host/stress/row_images.h"
 #include "host/stress/statistics.h"
 
 #include <fmt/format.h>
@@ -67,12 +67,11 @@ struct SeedStatistics {
 
 SeedStatistics render_seeds(StressRun& run, const closed_form::Row& row, int seeds) {
     Scene scene = load_row(row);
-    Progress quiet(Progress::Mode::quiet);
     SeedStatistics s;
     Mean group;
     for (int seed = 0; seed < seeds; seed++) {
         scene.sampler.seed = static_cast<std::uint32_t>(run.seed * 100'000 + seed);
-        RenderResult result = render(scene, run.device, {}, quiet);
+        RenderResult result = render_quietly(run, scene);
         s.truth = mean_truth(row, result.image);
         s.bad_samples += result.report.non_finite_samples;
         double mean = mean_of(result.image);

@@ -7,6 +7,7 @@
 #include "host/render/filter_table.h"
 #include "host/scene/mitsuba/scene_builder.h"
 #include "host/scene/mitsuba/xml_file.h"
+#include "host/stress/every_kind_scene.h"
 #include "host/stress/statistics.h"
 
 #include <fmt/format.h>
@@ -22,15 +23,6 @@ constexpr int light_count = 60;
 /// From 1e-15 to 1e15, in no order.
 double power_of(int light) { return std::pow(10, 30. * (light * 37 % light_count) / 59 - 15); }
 
-Shape square_shape(glm::dvec3 at, glm::dvec3 u, glm::dvec3 v, std::optional<Rgb> radiance) {
-    Mesh m;
-    m.positions = {at, at + u, at + u + v, at + v};
-    m.triangles = {{0, 1, 2}, {0, 2, 3}};
-    Shape s;
-    s.geometry = m, s.material_front = 0, s.radiance = radiance;
-    return s;
-}
-
 glm::dvec3 place(Random& random) {
     double x = random.between(-9, 9), y = random.between(0.5, 5);
     return {x, y, random.between(-9, 9)};
@@ -39,7 +31,7 @@ glm::dvec3 place(Random& random) {
 Scene hall() {
     Scene scene;
     scene.materials.push_back({"", {}, DiffuseBsdf{}});
-    scene.shapes.push_back(square_shape({-10, 0, -10}, {0, 0, 20}, {20, 0, 0}, {}));
+    scene.shapes.push_back(shape_of(quad({-10, 0, -10}, {0, 0, 20}, {20, 0, 0}), 0, no_material));
     return scene;
 }
 
@@ -64,7 +56,7 @@ Scene mixed_hall() {
         glm::dvec3 n(w.x, w.y, w.z), u = glm::normalize(glm::cross(n, {0.3, 0.5, 0.8})),
                                      v = glm::cross(n, u);
         Rgb power(power_of(k));
-        Shape shape = square_shape(at, u, v, power);
+        Shape shape = shape_of(quad(at, u, v), 0, no_material, power);
         switch (k % 6) {
         case 0:
             scene.emitters.push_back(PointEmitter{at, power});
@@ -255,11 +247,11 @@ double filter_mass(const ReconstructionFilter& filter, double a, double b) {
 
 Checks filters(StressRun& run) {
     std::uint64_t count = run.count(50'000, 1'000'000, 100'000'000);
-    const std::pair<const char*, FilterKind> kinds[] = {{"tent", FilterKind::tent},
-                                                        {"gaussian", FilterKind::gaussian},
-                                                        {"mitchell", FilterKind::mitchell},
-                                                        {"catmullrom", FilterKind::catmullrom},
-                                                        {"lanczos", FilterKind::lanczos}};
+    const std::pair<const char*, FilterKind> kinds[] = {
+#define NAMED_FILTER(name) {#name, FilterKind::name},
+        FILTER_KINDS(NAMED_FILTER)
+#undef NAMED_FILTER
+    };
     Checks checks;
     Random random(run.seed);
     for (const auto& [name, kind] : kinds) {

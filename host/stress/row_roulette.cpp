@@ -1,9 +1,8 @@
 // Russian roulette on and off, over many seeds: the same means (Welch's t-test, whose p-values are
 // uniform), and paths that it did end.
-#include "host/stress/rows.h"
-
-#include "host/render/path_tracer.h"
 #include "host/stress/every_kind_scene.h"
+#include "host/stress/row_images.h"
+#include "host/stress/rows.h"
 
 #include "host/stress/welch.h"
 
@@ -36,16 +35,11 @@ Scene room(int first) {
     return scene;
 }
 
-struct Images {
-    double rays = 0, bad_samples = 0;
-};
-
-MeanRgb image_mean(StressRun& run, Scene& scene, std::uint32_t seed, Images& images) {
-    Progress quiet(Progress::Mode::quiet);
+MeanRgb image_mean(StressRun& run, Scene& scene, std::uint32_t seed, double& rays, Check& bad) {
     scene.sampler.seed = seed;
-    RenderResult result = render(scene, run.device, {}, quiet);
-    images.rays += static_cast<double>(result.report.bounce_rays);
-    images.bad_samples += static_cast<double>(result.report.non_finite_samples);
+    RenderResult result = render_quietly(run, scene);
+    rays += static_cast<double>(result.report.bounce_rays);
+    add_bad_samples(bad, result.report);
     return mean_rgb(result.image);
 }
 
@@ -54,20 +48,18 @@ MeanRgb image_mean(StressRun& run, Scene& scene, std::uint32_t seed, Images& ima
 Checks row_roulette(StressRun& run) {
     int groups = static_cast<int>(run.count(4, 16, 125));
     Scene with = room(2), without = room(1000);
-    Images with_it, without_it;
+    double rays_with = 0, rays_without = 0;
+    Check bad = bad_samples_check("roulette");
     Checks checks = welch_checks(
-        run, "roulette on and off", groups, 6,
-        [&](std::uint32_t seed) { return image_mean(run, with, seed, with_it); },
-        [&](std::uint32_t seed) { return image_mean(run, without, seed, without_it); });
+        run, {.name = "roulette on and off", .groups = groups, .most_error = 0.03},
+        [&](std::uint32_t seed) { return image_mean(run, with, seed, rays_with, bad); },
+        [&](std::uint32_t seed) { return image_mean(run, without, seed, rays_without, bad); });
     checks.push_back({.name = "roulette: rays that it leaves, of those without",
-                      .value = with_it.rays / without_it.rays,
+                      .value = rays_with / rays_without,
                       .target = 0.9, // or it would have tested nothing
                       .unit = "share",
-                      .samples = static_cast<std::uint64_t>(without_it.rays)});
-    checks.push_back({.name = "roulette: samples that are not finite",
-                      .value = with_it.bad_samples + without_it.bad_samples,
-                      .target = 0,
-                      .unit = "samples"});
+                      .samples = static_cast<std::uint64_t>(rays_without)});
+    checks.push_back(bad);
     return checks;
 }
 

@@ -4,6 +4,7 @@
 
 #include "host/oracle/device_functions.h"
 #include "host/render/filter_table.h"
+#include "host/render/kind_names.h"
 
 #include <fmt/format.h>
 
@@ -84,15 +85,6 @@ void try_no_direction(Findings& found) {
         }
 }
 
-const char* kind_name(int kind) {
-    static const char* const names[] = {
-#define MATERIAL_NAME(name, sides) #name,
-        MATERIALS(MATERIAL_NAME)
-#undef MATERIAL_NAME
-    };
-    return names[kind];
-}
-
 /// From the normal to a millionth above the horizon, and on it.
 std::vector<vec3> views(const MaterialCase& c) {
     std::vector<vec3> list = viewer_directions(c);
@@ -116,7 +108,7 @@ void try_materials(Ends& ends, std::uint64_t count, Findings& found) {
                     f32::BsdfEval e = bsdf_eval(m, wo, s.wi);
                     good = std::isfinite(e.pdf) && e.pdf >= 0 && f32::finite3(e.f);
                 }
-                found[fmt::format("material {}", kind_name(c.kind))].add(good, [&] {
+                found[fmt::format("material {}", material_names[c.kind])].add(good, [&] {
                     return fmt::format("{}, wo {}, u {}: wi {}, weight {}, pdf {}", c.name,
                                        text(wo), text(u), text(s.wi), text(s.weight), s.pdf);
                 });
@@ -162,15 +154,6 @@ f32::Light light_of(int kind, double size, vec3 n, double side) {
     return l;
 }
 
-const char* emitter_name(int kind) {
-    static const char* const names[] = {
-#define EMITTER_NAME(name) #name,
-        EMITTERS(EMITTER_NAME)
-#undef EMITTER_NAME
-    };
-    return names[kind];
-}
-
 /// Lights from 1e-6 to 1e6 times as wide as far, seen from all around, from their own plane, and
 /// from the points of their own surface.
 void try_emitters(Ends& ends, std::uint64_t count, Findings& found) {
@@ -194,7 +177,7 @@ void try_emitters(Ends& ends, std::uint64_t count, Findings& found) {
                 float pdf = good && s.inverse_pdf > 0 ? emitter_hit(l, p, s.wi, s.q, true).pdf : 0;
                 // An infinite density: q is in its own plane, and no light comes.
                 good &= pdf >= 0;
-                found[fmt::format("emitter {}", emitter_name(kind))].add(good, [&] {
+                found[fmt::format("emitter {}", emitter_names[kind])].add(good, [&] {
                     return fmt::format("size {:g}, p {}, u {}: wi {}, weight {}, q {}, pdf {}",
                                        size, text(p), text(u), text(s.wi), text(s.weight),
                                        text(s.q), pdf);
@@ -295,8 +278,12 @@ void try_camera(Ends& ends, std::uint64_t count, Findings& found) {
 }
 
 void try_filters(Ends& ends, std::uint64_t count, Findings& found) {
-    for (FilterKind kind : {FilterKind::box, FilterKind::tent, FilterKind::gaussian,
-                            FilterKind::mitchell, FilterKind::catmullrom, FilterKind::lanczos}) {
+    const std::pair<const char*, FilterKind> kinds[] = {
+#define NAMED_FILTER(name) {#name, FilterKind::name},
+        FILTER_KINDS(NAMED_FILTER)
+#undef NAMED_FILTER
+    };
+    for (const auto& [name, kind] : kinds) {
         ReconstructionFilter filter;
         filter.kind = kind;
         std::vector<FilterBin> table = make_filter_table(filter);
@@ -305,7 +292,7 @@ void try_filters(Ends& ends, std::uint64_t count, Findings& found) {
             FilterOffset s = sample_filter(table, u);
             found["filter"].add(std::fabs(s.offset) <= filter_radius(filter) &&
                                     std::isfinite(s.weight),
-                                [&] { return fmt::format("filter {}, u {:.9g}", int(kind), u); });
+                                [&, name = name] { return fmt::format("{}, u {:.9g}", name, u); });
         }
     }
 }

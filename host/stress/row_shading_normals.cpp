@@ -2,7 +2,7 @@
 // there is, and the same light whichever strategy samples it.
 #include "host/stress/rows.h"
 
-#include "host/render/path_tracer.h"
+#include "host/stress/row_images.h"
 #include "host/stress/smooth_spheres.h"
 #include "host/stress/statistics.h"
 
@@ -14,9 +14,8 @@ namespace {
 constexpr int sphere_pixels = 48; // wide and high
 
 Image image_of(StressRun& run, Scene scene, unsigned number = 0) {
-    Progress quiet(Progress::Mode::quiet);
     scene.sampler.seed = static_cast<std::uint32_t>(run.seed * 10) + number;
-    return render(scene, run.device, {}, quiet).image;
+    return render_quietly(run, scene).image;
 }
 
 bool is_delta(const NamedBsdf& b) {

@@ -4,6 +4,7 @@
 
 #include "host/image/image.h"
 #include "host/scene/scene.h"
+#include "host/stress/every_kind_scene.h"
 
 #include <glm/geometric.hpp>
 
@@ -117,14 +118,9 @@ inline std::vector<glm::dvec3> panel_corners(double distance) {
 
 /// Shines towards the spheres.
 inline void add_panel(Scene& scene, double distance) {
-    Mesh mesh;
-    mesh.positions = panel_corners(distance);
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    Shape shape;
-    shape.geometry = std::move(mesh);
-    shape.material_front = shape.material_back = no_material;
-    shape.radiance = Rgb(10);
-    scene.shapes.push_back(std::move(shape));
+    std::vector<glm::dvec3> c = panel_corners(distance);
+    scene.shapes.push_back(
+        shape_of(quad(c[0], c[1] - c[0], c[3] - c[0]), no_material, no_material, Rgb(10)));
 }
 
 inline const std::vector<float>& channel(const Image& image, const std::string& name) {

@@ -1,6 +1,5 @@
 // Where a scene is and how large: the same bits of a scene scaled by a power of two or moved,
 // lengths and places aside. Other sizes and turns: row `scale_and_turn` of the stress test.
-#include "tests/support/every_kind_scene.h"
 #include "tests/support/placed_scene.h"
 #include "tests/support/render_scene.h"
 
@@ -15,10 +14,7 @@ using namespace parhelion::test;
 namespace {
 
 Scene small_scene() {
-    Scene scene = with_coarse_places(every_kind_scene());
-    scene.film.width = scene.film.crop_width = scene.film.height = scene.film.crop_height = 16;
-    scene.camera.fov_degrees = 90; // some sky beside the walls
-    scene.sampler.samples_per_pixel = 8;
+    Scene scene = movable_scene();
     scene.integrator.aovs = {{"nn", "sh_normal", {}}, {"dd", "depth", {}}, {"pp", "position", {}}};
     return scene;
 }

@@ -1,0 +1,15 @@
+// Materials and lights by name, in the order of their lists.
+#pragma once
+
+#include "kernels/shared/features.h"
+
+#include <array>
+
+namespace parhelion {
+
+#define KIND_NAME_MATERIAL(name, sides) #name,
+inline constexpr std::array material_names{MATERIALS(KIND_NAME_MATERIAL)};
+#define KIND_NAME(name) #name,
+inline constexpr std::array emitter_names{EMITTERS(KIND_NAME)};
+
+} // namespace parhelion
