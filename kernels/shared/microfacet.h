@@ -10,15 +10,24 @@ FN Real stretched_length(vec3 w, Real alpha_u, Real alpha_v) {
     return length3(v3(alpha_u * w.x, alpha_v * w.y, w.z));
 }
 
+/// x over / under.
+FN TwoReal two_scaled(Real x, Real over, Real under) {
+    Real inverse = R(1.) / under, product = x * over;
+    Real quotient = product * inverse;
+    Real remainder = fmaR(-quotient, under, product) + fmaR(x, over, -product);
+    return two_real(quotient, remainder * inverse);
+}
+
 /// (h.x^2 / au^2 + h.y^2 / av^2) au av + rest. Divides nothing where the roughness is isotropic;
 /// the larger square comes last, where it is rounded once less.
 FN Real add_roughness_scaled_square(vec3 h, Real alpha_u, Real alpha_v, Real rest) {
     Real small = h.x, large = h.y, small_scaled = h.x, large_scaled = h.y;
     if (HAS(anisotropy)) {
-        Real x = h.x * (alpha_v / alpha_u), y = h.y * (alpha_u / alpha_v);
-        Mask ordered = x * h.x < y * h.y;
+        TwoReal x = two_scaled(h.x, alpha_v, alpha_u), y = two_scaled(h.y, alpha_u, alpha_v);
+        Mask ordered = x.high * h.x < y.high * h.y;
         small = sel(ordered, h.x, h.y), large = sel(ordered, h.y, h.x);
-        small_scaled = sel(ordered, x, y), large_scaled = sel(ordered, y, x);
+        small_scaled = sel(ordered, x.high, y.high), large_scaled = sel(ordered, y.high, x.high);
+        rest = rest + fmaR(x.low, h.x, y.low * h.y);
     }
     return fmaR(large_scaled, large, fmaR(small_scaled, small, rest));
 }
@@ -32,7 +41,7 @@ typedef struct {
 FN Quotient ggx_d_quotient(vec3 h, Real alpha_u, Real alpha_v) {
     Real r = alpha_u * alpha_v;
     Quotient d;
-    d.over = r * R(INV_PI);
+    d.over = fmaR(r, R(INV_PI_HIGH), r * R(INV_PI_LOW));
     d.under = square(add_roughness_scaled_square(h, alpha_u, alpha_v, r * (h.z * h.z)));
     return d;
 }
