@@ -215,11 +215,14 @@ kernel void shade(KERNEL_PARAMETERS) {
         if (HAS(next_event)) {
             Random4 r =
                 sampler_draw(asUint(v.pixel), asUint(v.sample), bounce + dimension_emitter, seed);
-            LightPick pick = pick_light(light_nodes, surface.p, shaded.ns, need_material, r.x, r.y);
+            // Seen from where rays to this side begin, as by a ray of the BSDF's choice that meets
+            // the light: next to an emitter even the clearance changes its solid angle.
+            vec3 from = leave_surface(surface.p, clearance, surface.ng, neg3(v.direction));
+            LightPick pick = pick_light(light_nodes, from, shaded.ns, need_material, r.x, r.y);
             Mask reached = need_material & !(pick.pmf <= R(0.));
             Light light =
                 light_picked_with(load_Light(lights, pick.row), sel(reached, pick.pmf, R(1.)));
-            EmitterSample e = emitter_sample(light, surface.p, uniform2(r.z, r.w));
+            EmitterSample e = emitter_sample(light, from, uniform2(r.z, r.w));
             vec3 wi = to_local(frame, e.wi);
             wi.z = wi.z * side;
             BsdfEval f = bsdf_eval(material, wo, wi);

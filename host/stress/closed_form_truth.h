@@ -7,6 +7,8 @@
 #include "host/scene/scene.h"
 #include "host/stress/closed_form_formulas.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -137,6 +139,14 @@ inline void add_area_lights(std::vector<Row>& rows) {
                                            Parameters{{"emitter_samples", "0"}}})
             rows.push_back(uniform_row(folder, strategy, 1024, Check::mean_z_test, 5e-5, value));
     }
+    // F = 1/d^2 cos, cos = 1/d from the centre. Rounding counts for more the narrower the gap is.
+    for (const Parameters& parameters :
+         {Parameters{{"distance", "0.02"}, {"bsdf_samples", "0"}}, Parameters{{"distance", "0.02"}},
+          Parameters{{"distance", "0.005"}}}) {
+        const double d = std::hypot(1, std::stod(parameters.at("distance")));
+        rows.push_back(uniform_row("touching_sphere_light", parameters, 1024, Check::mean_z_test,
+                                   1e-4, albedo * light / (d * d * d)));
+    }
 }
 
 /// Pixel by pixel form factors of the floor of a unit cube; their mean is 0.199824895698387 to the
@@ -153,16 +163,19 @@ inline void add_unit_cubes(std::vector<Row>& rows) {
                         return full * parallel_form_factor(pixel_footprint(x, y, 8, 0.5),
                                                            {-0.5, 0.5, -0.5, 0.5}, 1);
                     }});
-    rows.push_back({"unit_cube_perpendicular",
-                    "unit_cube_perpendicular",
-                    {},
-                    1024,
-                    Check::mean_z_test,
-                    0,
-                    [full](int x, int y) {
-                        return full * perpendicular_form_factor(pixel_footprint(x, y, 8, 0.5), 0.5,
-                                                                -0.5, 0.5, 1);
-                    }});
+    // All of the floor, and a strip of it next to the emitter, which is seen there under pi sr.
+    for (double half_width : {0.5, 5e-4}) {
+        const Parameters parameters{
+            {"fov", fmt::format("{}", 2 * glm::degrees(std::atan(half_width / 0.5)))},
+            {"center_x", fmt::format("{}", 0.5 - half_width)}};
+        rows.push_back({fmt::format("unit_cube_perpendicular, {} wide", 2 * half_width),
+                        "unit_cube_perpendicular", parameters, 1024, Check::mean_z_test,
+                        half_width < 0.5 ? 5e-5 : 0, [=](int x, int y) {
+                            Footprint f = pixel_footprint(x, y, 8, half_width);
+                            f.x0 += 0.5 - half_width, f.x1 += 0.5 - half_width;
+                            return full * perpendicular_form_factor(f, 0.5, -0.5, 0.5, 1);
+                        }});
+    }
 }
 
 /// A uniform sky gives E = pi L times the visible part of the projected hemisphere.

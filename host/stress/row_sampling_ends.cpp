@@ -242,7 +242,7 @@ void try_spherical_triangles(Ends& ends, std::uint64_t count, Findings& found) {
         };
         f32::EmitterSample s = emitter_sample(triangle_light(a, b, c), {0, 0, 0}, vec2{u.x, u.y});
         found["near and far triangle lights"].add(right(s), where);
-        f32::SphericalTriangle t = f32::spherical_triangle(b, a, c);
+        f32::SphericalTriangle t = f32::spherical_triangle(b, a, c, true);
         bool good = std::isfinite(t.solid_angle) && t.solid_angle >= 0;
         if (good && t.solid_angle >= float(SOLID_ANGLE_LEAST) && t.solid_angle <= 6) {
             vec3 w = f32::spherical_triangle_uniform(t, vec2{u.x, u.y});

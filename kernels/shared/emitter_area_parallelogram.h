@@ -16,18 +16,13 @@ FN SphericalParallelogram emitter_area_parallelogram_seen(Light l, vec3 p) {
     vec3 n = cross3(sub3(light_b(l), light_a(l)), e2);
     Mask near = near_for_solid_angle(scale3(add3(b, c), R(.5)), dot3(n, n)) & (dot3(a, n) < R(0.));
     SphericalParallelogram seen;
-    seen.first.start = n;
-    seen.first.apex = n;
-    seen.first.end = n;
-    seen.first.volume = R(0.);
-    seen.first.solid_angle = R(0.);
+    seen.first = seen.second = spherical_triangle_none();
     seen.solid_angle = R(0.);
-    seen.second = seen.first;
     if (someLane(near)) {
         vec3 across = add3(b, e2);
-        seen.first = spherical_triangle(b, a, across);
-        seen.second = spherical_triangle(across, a, c);
-        seen.solid_angle = sel(near, seen.first.solid_angle + seen.second.solid_angle, R(0.));
+        seen.first = spherical_triangle(b, a, across, near);
+        seen.second = spherical_triangle(across, a, c, near);
+        seen.solid_angle = seen.first.solid_angle + seen.second.solid_angle;
     }
     return seen;
 }
@@ -35,12 +30,7 @@ FN SphericalParallelogram emitter_area_parallelogram_seen(Light l, vec3 p) {
 FN vec3 spherical_parallelogram_uniform(SphericalParallelogram s, vec2 u) {
     Real at = u.x * s.solid_angle;
     Mask first = at < s.first.solid_angle;
-    SphericalTriangle t;
-    t.start = sel3(first, s.first.start, s.second.start);
-    t.apex = s.first.apex;
-    t.end = sel3(first, s.first.end, s.second.end);
-    t.volume = sel(first, s.first.volume, s.second.volume);
-    t.solid_angle = sel(first, s.first.solid_angle, s.second.solid_angle);
+    SphericalTriangle t = sel_spherical_triangle(first, s.first, s.second);
     Real within = sel(first, at, at - s.first.solid_angle);
     Mask there = t.solid_angle > R(0.);
     return spherical_triangle_uniform(t, v2(within / sel(there, t.solid_angle, R(1.)), u.y));

@@ -8,6 +8,7 @@
 typedef struct {
     Mask outside, visible;
     Real distance_squared; // from p to the centre
+    Real power;            // distance_squared / radius^2 - 1
     Real sine_squared;     // of the cone's half angle
     Real one_minus_cosine;
 } SphereCone;
@@ -21,6 +22,7 @@ FN SphereCone emitter_area_sphere_cone(Light l, vec3 p) {
     c.visible = !c.outside | (c.distance_squared > radius_squared);
     Mask cone = c.outside & c.visible;
     c.sine_squared = sel(cone, radius_squared / sel(cone, c.distance_squared, R(1.)), R(1.));
+    c.power = sel(cone, (c.distance_squared - radius_squared) / radius_squared, R(0.));
     c.one_minus_cosine = c.sine_squared / (R(1.) + sqrtR(R(1.) - c.sine_squared));
     return c;
 }
@@ -31,14 +33,15 @@ FN EmitterSample emitter_area_sphere_sample(Light l, vec3 p, vec2 u) {
     // Inside: a point uniform by area.
     vec3 outward = sphere_uniform(u);
     // Outside: a direction in the cone; the point it meets first lies at the angle alpha about the
-    // centre.
+    // centre, whose sine comes from the distance of that point: next to the sphere its cosine is 1.
     Real one_minus_c = u.x * cone.one_minus_cosine;
     Real c = R(1.) - one_minus_c;
     Real s_squared = one_minus_c * (R(1.) + c);
     Real ratio = s_squared / cone.sine_squared; // sin^2(theta) / sin^2(theta_max), in [0, 1)
     Real sine_max = sqrtR(cone.sine_squared);
-    Real cos_alpha = s_squared / sine_max + c * sqrt_nonnegative(R(1.) - ratio);
-    Real sin_alpha = sqrt_nonnegative((R(1.) - cos_alpha) * (R(1.) + cos_alpha));
+    Real inside = sqrt_nonnegative(R(1.) - ratio); // half the ray's way through, over the radius
+    Real cos_alpha = s_squared / sine_max + c * inside;
+    Real sin_alpha = sqrtR(s_squared) * cone.power / (c / sine_max + inside);
     SinCos phi = sincos_turns(u.y);
     vec3 axis = sub3(p, centre);
     Mask in_cone = cone.outside & cone.visible;

@@ -8,15 +8,7 @@ FN SphericalTriangle emitter_area_triangle_seen(Light l, vec3 p) {
     vec3 n = cross3(sub3(light_b(l), light_a(l)), sub3(light_c(l), light_a(l)));
     Mask near = near_for_solid_angle(scale3(add3(a, add3(b, c)), R(1. / 3.)), .25f * dot3(n, n)) &
                 (dot3(a, n) < R(0.));
-    SphericalTriangle seen;
-    seen.start = n;
-    seen.apex = n;
-    seen.end = n;
-    seen.volume = R(0.);
-    seen.solid_angle = R(0.);
-    if (someLane(near)) seen = spherical_triangle(b, a, c);
-    seen.solid_angle = sel(near, seen.solid_angle, R(0.));
-    return seen;
+    return someLane(near) ? spherical_triangle(b, a, c, near) : spherical_triangle_none();
 }
 
 FN EmitterSample emitter_area_triangle_sample(Light l, vec3 p, vec2 u) {

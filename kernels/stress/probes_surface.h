@@ -96,8 +96,9 @@ FN ProbeOut probe_surface_disk(ProbeIn i) {
     return out_surface(surface_disk(in_Primitive(i, 0), d.x, d.y));
 }
 FN ProbeOut probe_spherical_triangle(ProbeIn i) {
-    SphericalTriangle t = spherical_triangle(in3(i, 0), in3(i, 3), in3(i, 6));
-    vec3 w = spherical_triangle_uniform(t, in2(i, 9));
+    vec2 u = in2(i, 9);
+    SphericalTriangle t = spherical_triangle(in3(i, 0), in3(i, 3), in3(i, 6), u.x == u.x);
+    vec3 w = spherical_triangle_uniform(t, u);
     vec3 e1 = sub3(in3(i, 3), in3(i, 0)), e2 = sub3(in3(i, 6), in3(i, 0));
     return put2(put3(out1(t.solid_angle), 1, w), 4, plane_coordinates(in3(i, 0), e1, e2, w));
 }

@@ -4,6 +4,7 @@
 #include "host/stress/statistics.h"
 #include "tests/support/shared_maths.h"
 
+#include <algorithm>
 #include <array>
 
 using namespace parhelion;
@@ -32,9 +33,19 @@ Corners random_triangle(Random& random, double size) {
     return c;
 }
 
+/// A triangle one of whose sides passes the origin at the distance `apart`.
+Corners triangle_beside(Random& random, double apart) {
+    f64::vec3 along = random.direction<F64>(), off = f64::scale3(random.direction<F64>(), apart);
+    Corners c{vec_as<F32>(f64::add3(off, f64::scale3(along, random.between(0.5, 1)))),
+              vec_as<F32>(f64::add3(off, f64::scale3(along, -random.between(0.5, 1)))),
+              vec_as<F32>(random.direction<F64>())};
+    std::rotate(c.begin(), c.begin() + static_cast<std::ptrdiff_t>(random.bits() % 3), c.end());
+    return c;
+}
+
 template<class P>
 auto seen(const Corners& c) {
-    return spherical_triangle(vec_as<P>(c[0]), vec_as<P>(c[1]), vec_as<P>(c[2]));
+    return spherical_triangle(vec_as<P>(c[0]), vec_as<P>(c[1]), vec_as<P>(c[2]), true);
 }
 
 /// Solid angle by Van Oosterom and Strackee's formula as it stands, in extended precision.
@@ -84,35 +95,37 @@ TEST_CASE("Solid angle: an octant is pi / 2, a degenerate triangle nothing", "[e
 TEST_CASE("Solid angle: any part of a triangle is hit as often as it is large", "[emitter]") {
     Random random(92);
     std::vector<double> p_values;
-    for (double size : {0.05, 0.4, 1.0, 3.0})
-        for (int repeat = 0; repeat < 4; repeat++) {
-            Corners c = random_triangle(random, size);
-            auto triangle = seen<F32>(c);
-            if (triangle.solid_angle < SOLID_ANGLE_LEAST) continue;
-            // 4 x 4 cells: shares of the solid angle from corner 0, cut by arcs from corner 1.
-            const int count = 200000;
-            std::vector<double> observed(16), expected;
-            for (int n = 0; n < count; n++) {
-                f32::vec3 w = spherical_triangle_uniform(triangle, random.square<F32>());
-                f64::vec3 v = wide(w);
-                // The point's own sub-triangle: its side from corner 1 through w.
-                f64::vec3 side = f64::cross3(wide(c[1]), v),
-                          far = f64::cross3(wide(c[0]), wide(c[2]));
-                f64::vec3 cut = f64::cross3(far, side);
-                f64::vec3 between =
-                    f64::add3(f64::normalize3(wide(c[0])), f64::normalize3(wide(c[2])));
-                if (f64::dot3(cut, between) < 0) cut = f64::neg3(cut);
-                auto part = f64::spherical_triangle(wide(c[0]), wide(c[1]), cut);
-                double x = part.solid_angle / seen<F64>(c).solid_angle;
-                double to_cut = 1 - f64::dot3(f64::normalize3(wide(c[1])), f64::normalize3(cut));
-                double y = (1 - f64::dot3(f64::normalize3(wide(c[1])), v)) / to_cut;
-                auto cell = [](double u) { return std::size_t(std::clamp(u, 0.0, 0.999999) * 4); };
-                observed[cell(x) * 4 + cell(y)]++;
-            }
-            expected.assign(16, count / 16.0);
-            p_values.push_back(chi_square_p(observed, expected));
+    auto test = [&](const Corners& c) {
+        auto triangle = seen<F32>(c);
+        if (triangle.solid_angle < SOLID_ANGLE_LEAST) return;
+        // 4 x 4 cells: shares of the solid angle from corner 0, cut by arcs from corner 1.
+        const int count = 200000;
+        std::vector<double> observed(16), expected;
+        for (int n = 0; n < count; n++) {
+            f32::vec3 w = spherical_triangle_uniform(triangle, random.square<F32>());
+            f64::vec3 v = wide(w);
+            // The point's own sub-triangle: its side from corner 1 through w.
+            f64::vec3 side = f64::cross3(wide(c[1]), v), far = f64::cross3(wide(c[0]), wide(c[2]));
+            f64::vec3 cut = f64::cross3(far, side);
+            f64::vec3 between = f64::add3(f64::normalize3(wide(c[0])), f64::normalize3(wide(c[2])));
+            if (f64::dot3(cut, between) < 0) cut = f64::neg3(cut);
+            auto part = f64::spherical_triangle(wide(c[0]), wide(c[1]), cut, true);
+            double x = part.solid_angle / seen<F64>(c).solid_angle;
+            double to_cut = 1 - f64::dot3(f64::normalize3(wide(c[1])), f64::normalize3(cut));
+            double y = (1 - f64::dot3(f64::normalize3(wide(c[1])), v)) / to_cut;
+            auto cell = [](double u) { return std::size_t(std::clamp(u, 0.0, 0.999999) * 4); };
+            observed[cell(x) * 4 + cell(y)]++;
         }
-    CHECK(p_values.size() > 10);
+        expected.assign(16, count / 16.0);
+        p_values.push_back(chi_square_p(observed, expected));
+    };
+    for (double size : {0.05, 0.4, 1.0, 3.0})
+        for (int repeat = 0; repeat < 4; repeat++)
+            test(random_triangle(random, size));
+    for (double apart : {0.1, 1e-2, 1e-3, 1e-4})
+        for (int repeat = 0; repeat < 4; repeat++)
+            test(triangle_beside(random, apart));
+    CHECK(p_values.size() > 26);
     double level = sidak_level(0.01, p_values.size());
     for (double p : p_values)
         CHECK(p > level);
