@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <functional>
 #include <string>
 
 #include "host/stress/density_test.h"
@@ -19,14 +20,14 @@ std::string text_of(const Configuration& c) {
     return fmt::format("{}, cosine {:.6g}", c.material.name, c.wo.z);
 }
 
-/// The smallest of many p-values, by Sidak's level for as many.
+/// The smallest of many p-values, by Sidak's level for as many. `view_done` is called once a view.
 Checks density_checks(StressRun& run, const std::string& name,
-                      const std::vector<Configuration>& list, std::uint64_t count) {
+                      const std::vector<Configuration>& list, std::uint64_t count,
+                      const std::function<void()>& view_done) {
     std::vector<DensityTest> tests(list.size());
-    std::atomic<std::size_t> finished = 0;
     parallel_for(list.size(), [&](std::size_t i) {
-        tests[i] = test_density(list[i], count, run.seed + 1000 + i, 1e-4);
-        run.done(static_cast<double>(++finished) / static_cast<double>(list.size()));
+        tests[i] = test_density(list[i], count, run.seed + 1000 + i);
+        view_done();
     });
     double level = sidak_level(0.01, 2 * list.size());
     Check directions{.name = name + ": chi-square of directions, smallest p",
@@ -75,9 +76,16 @@ double power_over_one(const Configuration& c, std::uint64_t count, std::uint64_t
 Checks row_density(StressRun& run) {
     Checks checks;
     std::uint64_t count = run.count(20'000, 300'000, 100'000'000);
+    std::size_t views = 0;
+#define COUNT_VIEWS(label, sides) views += configurations(material_##label, false).size();
+    MATERIALS(COUNT_VIEWS)
+    std::atomic<std::size_t> finished = 0;
+    auto view_done = [&] {
+        run.done(static_cast<double>(++finished) / static_cast<double>(views));
+    };
 #define TEST_KIND(label, sides)                                                                    \
     if (std::vector<Configuration> list = configurations(material_##label, false); !list.empty())  \
-        for (const Check& check : density_checks(run, #label, list, count))                        \
+        for (const Check& check : density_checks(run, #label, list, count, view_done))             \
             checks.push_back(check);
     MATERIALS(TEST_KIND)
     return checks;

@@ -62,7 +62,7 @@ TEST_CASE("Materials: the density test notices a roughness that is off by three 
     std::vector<double> observed(bins.size()), expected(bins.size());
     int count = 0;
     for (int n = 0; n < 1000000; n++)
-        if (auto s = draw(); s.pdf > 0) observed[bins.find(s.wi)]++, count++;
+        if (auto s = draw(); s.pdf > 0) observed[bins.find(wide(s.wi))]++, count++;
     auto density = [m64 = make_material<F64>(wrong), wo](f64::vec3 wi) {
         return bsdf_eval(m64, wide(wo), wi).pdf;
     };

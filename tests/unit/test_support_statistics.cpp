@@ -44,7 +44,7 @@ double cosine_p_value(double claimed_power) {
     const int count = 200000;
     std::vector<double> observed(bins.size()), expected(bins.size());
     for (int n = 0; n < count; n++)
-        observed[bins.find(f32::hemisphere_cosine(random.square<F32>()))]++;
+        observed[bins.find(wide(f32::hemisphere_cosine(random.square<F32>())))]++;
     auto density = [&](f64::vec3 w) {
         return w.z > 0 ? std::pow(w.z, claimed_power) * (claimed_power + 1) / (2 * M_PI) : 0;
     };
