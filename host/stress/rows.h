@@ -27,6 +27,7 @@ namespace parhelion::stress {
     X(splitting,      "Images", "The image is the same bits however the work is done") \
     X(scale_and_move, "Images", "A scene scaled by a power of two or moved exactly gives the same bits") \
     X(scale_and_turn, "Images", "A scene of any other size, turned: the same means (Welch)") \
+    X(grain_and_planet, "Images", "Grains of 1e-6 to 1e6 on a planet of 1e7: device against double precision") \
     X(closed_forms,   "Images", "Scenes of known answers over many seeds: no bias, and errors as large as they say")
 // clang-format on
 
