@@ -10,16 +10,9 @@ FN Real stretched_length(vec3 w, Real alpha_u, Real alpha_v) {
     return length3(v3(alpha_u * w.x, alpha_v * w.y, w.z));
 }
 
-/// x over / under.
-FN TwoReal two_scaled(Real x, Real over, Real under) {
-    Real inverse = R(1.) / under, product = x * over;
-    Real quotient = product * inverse;
-    Real remainder = fmaR(-quotient, under, product) + fmaR(x, over, -product);
-    return two_real(quotient, remainder * inverse);
-}
-
-/// (h.x^2 / au^2 + h.y^2 / av^2) au av + rest. Divides nothing where the roughness is isotropic;
-/// the larger square comes last, where it is rounded once less.
+/// (h.x^2 / au^2 + h.y^2 / av^2) au av + rest. Divides nothing where the roughness is isotropic,
+/// else adds what the quotients were rounded by; the larger square comes last, where it is rounded
+/// once less.
 FN Real add_roughness_scaled_square(vec3 h, Real alpha_u, Real alpha_v, Real rest) {
     Real small = h.x, large = h.y, small_scaled = h.x, large_scaled = h.y;
     if (HAS(anisotropy)) {

@@ -58,6 +58,14 @@ FN TwoReal two_multiply(TwoReal a, TwoReal b) {
     return two_quick_sum(high, fmaR(a.high, b.high, -high) + (a.high * b.low + a.low * b.high));
 }
 
+/// x * over / under, off by a few 2^-47 of it.
+FN TwoReal two_scaled(Real x, Real over, Real under) {
+    Real inverse = R(1.) / under, product = x * over;
+    Real quotient = product * inverse;
+    Real remainder = fmaR(-quotient, under, product) + fmaR(x, over, -product);
+    return two_real(quotient, remainder * inverse);
+}
+
 FN TwoReal3 two_difference3(vec3 a, vec3 b) {
     TwoReal3 r;
     r.x = two_difference(a.x, b.x);

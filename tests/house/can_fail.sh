@@ -8,7 +8,7 @@ failures=0
 
 good_tree() {
     rm -rf -- "$scratch/tree"
-    mkdir -p "$scratch"/tree/{kernels/{shared,device},host/{scene,cl,bvh,render,image},tests}
+    mkdir -p "$scratch"/tree/{kernels/{shared,device},host/{scene,cl,bvh,render,image},tests/mutations}
     cd "$scratch/tree"
     echo '// lane' >kernels/shared/lane.h
     printf '// math: 1.5 and epsilon and native_sin( in a comment are fine\n/* so is\n 2.5 mad( */\nfloat x = 1.5f + 1e3f + .5f; %s\n' \
@@ -32,7 +32,7 @@ must_find() {
     fi
 }
 
-for check in includes numerics files; do
+for check in includes numerics files faults; do
     good_tree
     "$house" "$check" "$scratch/tree" || { echo "$check fails on a tree without offences"; exit 1; }
 done
@@ -71,5 +71,7 @@ must_find files "opens with a comment" 'int x;' host/new.cpp
 must_find files "opens with a comment" 'int x;' kernels/new.cl
 must_find files "opens with a comment" 'set -e' tests/new.sh
 must_find files "at most 450" "$(printf '//\\n%.0s' {1..450})" host/new.cpp
+must_find faults "applies" 'Row: x\n--- a/kernels/shade.cl\n+++ b/kernels/shade.cl\n@@ -1 +1 @@\n-not there\n+fault' tests/mutations/new.patch
+must_find faults "names the row" '--- a/kernels/shade.cl\n+++ b/kernels/shade.cl\n@@ -1 +1 @@\n-// stage\n+fault' tests/mutations/new.patch
 echo "$failures offences were not found"
 ((failures == 0))

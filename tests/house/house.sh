@@ -1,5 +1,5 @@
 #!/bin/bash
-# House rules no compiler checks. Usage: house.sh includes|numerics|files [ROOT]; prints one line per offence.
+# House rules no compiler checks. Usage: house.sh includes|numerics|files|faults [ROOT]; prints one line per offence.
 set -euo pipefail
 check=$1
 cd -- "${2:-$(dirname -- "${BASH_SOURCE[0]}")/../..}"
@@ -156,6 +156,18 @@ check_files() {
             lines=$(wc -l <"$file")
             ((lines <= 450)) || echo "$file: $lines lines" | offend "a file has at most 450 lines"
         done
+    done
+}
+
+# ------------------------------------------------------------------------------------------ faults
+
+check_faults() {
+    local file
+    files_in tests/mutations '*.patch'
+    for file in "${found[@]}"; do
+        patch -p1 --dry-run --quiet <"$file" >/dev/null 2>&1 ||
+            echo "$file" | offend "a fault applies to the sources as they are"
+        grep -q '^Row: ' "$file" || echo "$file" | offend "a fault names the row that notices it"
     done
 }
 
