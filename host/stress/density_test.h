@@ -73,16 +73,16 @@ inline DensityTest test_density(const Configuration& c, std::uint64_t count, std
     bool grazing = std::fabs(c.wo.z) < 0.05;
     int certain = DirectionBins::deepest - (grazing ? 3 : tries < 1e7 ? 0 : 2);
     for (std::size_t i = 0; i < bins.size(); i++) {
-        double mass = bins.mass(i, density, std::max(0.1 / tries, 1e-9), certain);
+        double mass = bins.mass(i, density, std::clamp(0.1 / tries, 1e-9, 1e-7), certain);
         expected[i] = tries * mass;
         scattered += mass;
     }
-    expected[bins.size()] = tries * std::max(0.0, 1 - scattered);
-    double missing = observed[bins.size()] / tries;
+    double missing = std::max(0.0, 1 - scattered);
+    expected[bins.size()] = tries * missing;
     // Normal approximation of the binomial, and the quadrature's own error.
     double sigma = std::sqrt(std::max(missing, 1 / tries) / tries) + 1e-5;
-    return {chi_square_p(observed, expected), normal_two_sided((missing - (1 - scattered)) / sigma),
-            scattered};
+    double off = observed[bins.size()] / tries - (1 - scattered);
+    return {chi_square_p(observed, expected), normal_two_sided(off / sigma), scattered};
 }
 
 } // namespace parhelion::stress
