@@ -1,7 +1,9 @@
 // A grain beside a planet: how far single precision carries where a scene's sizes lie far apart.
 #include "host/stress/rows.h"
 
+#include "host/image/metrics.h"
 #include "host/oracle/host_render.h"
+#include "host/scene/mitsuba/transforms.h"
 #include "host/stress/every_kind_scene.h"
 #include "host/stress/row_images.h"
 
@@ -18,14 +20,6 @@ constexpr double planet = 1e7;            // radius, or half a side
 constexpr int smallest = -6, largest = 6; // powers of ten: radius of the grain
 constexpr int promised = 5;
 
-/// At the origin, x to the left of where it looks.
-glm::dmat4 look(glm::dvec3 from, glm::dvec3 to) {
-    glm::dvec3 forward = glm::normalize(to - from);
-    glm::dvec3 left = glm::normalize(glm::cross(glm::dvec3(0, 0, 1), forward));
-    return {glm::dvec4(left, 0), glm::dvec4(glm::cross(forward, left), 0), glm::dvec4(forward, 0),
-            glm::dvec4(from, 1)};
-}
-
 /// A ball of the radius `grain` that lies on the ground, looked at from four radii away, in the sun
 /// under a sky.
 Scene scene_of(const Geometry& ground, double grain) {
@@ -35,7 +29,8 @@ Scene scene_of(const Geometry& ground, double grain) {
     scene.shapes = {shape_of(ground, 0, 0), shape_of(Sphere{{0, 0, grain}, grain}, 0, no_material)};
     scene.emitters = {DirectionalEmitter{glm::normalize(glm::dvec3(0.3, 0.5, -1)), Rgb(3)},
                       ConstantEmitter{Rgb(0.3)}};
-    scene.camera.to_world = look(glm::dvec3(-4, 0, 1.5) * grain, glm::dvec3(0, 0, 0.7) * grain);
+    scene.camera.to_world = mitsuba::look_at(
+        glm::dvec3(-4, 0, 1.5) * grain, glm::dvec3(0, 0, 0.7) * grain, {0, 0, 1}, {scene.file, 0});
     scene.camera.fov_degrees = 40;
     scene.camera.near_clip = 1e-3 * grain, scene.camera.far_clip = 100 * planet;
     scene.film.width = scene.film.crop_width = 32;
@@ -47,16 +42,12 @@ Scene scene_of(const Geometry& ground, double grain) {
 
 /// Root of the mean square of what two images differ by, over the mean of the second.
 double relative_difference(const Image& a, const Image& b) {
-    double squares = 0, sum = 0;
-    for (const char* channel : {"R", "G", "B"}) {
-        const auto &x = find_channel(a, channel)->values, &y = find_channel(b, channel)->values;
-        for (std::size_t i = 0; i < x.size(); i++) {
-            squares += (double(x[i]) - y[i]) * (double(x[i]) - y[i]);
-            sum += y[i];
-        }
-    }
-    double values = 3. * static_cast<double>(a.pixel_count());
-    return std::sqrt(squares / values) / (sum / values);
+    std::vector<ChannelPair> pairs;
+    for (const char* channel : {"R", "G", "B"})
+        pairs.push_back(
+            {channel, find_channel(a, channel)->values, find_channel(b, channel)->values});
+    ErrorFigures all = compute_metrics(pairs, a.width, 0.01).all;
+    return all.rmse / all.mean_reference;
 }
 
 } // namespace

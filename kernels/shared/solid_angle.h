@@ -20,7 +20,6 @@ FN Mask near_for_solid_angle(vec3 middle, Real area_squared) {
 typedef struct {
     vec3 start, apex, end; // unit directions
     vec3 start_and_end;    // their sum
-    Real start_and_apex;   // 1 + start . apex
     Real volume, rest;     // the solid angle is 2 atan2(volume, rest)
     Real solid_angle;      // sr; 0 for a triangle seen from its own plane
 } SphericalTriangle;
@@ -29,7 +28,7 @@ FN SphericalTriangle spherical_triangle_none(void) {
     vec3 z = v3(R(0.), R(0.), R(1.));
     SphericalTriangle t;
     t.start = t.apex = t.end = t.start_and_end = z;
-    t.start_and_apex = t.rest = R(1.);
+    t.rest = R(1.);
     t.volume = t.solid_angle = R(0.);
     return t;
 }
@@ -40,7 +39,6 @@ FN SphericalTriangle sel_spherical_triangle(Mask m, SphericalTriangle a, Spheric
     t.apex = sel3(m, a.apex, b.apex);
     t.end = sel3(m, a.end, b.end);
     t.start_and_end = sel3(m, a.start_and_end, b.start_and_end);
-    t.start_and_apex = sel(m, a.start_and_apex, b.start_and_apex);
     t.volume = sel(m, a.volume, b.volume);
     t.rest = sel(m, a.rest, b.rest);
     t.solid_angle = sel(m, a.solid_angle, b.solid_angle);
@@ -100,8 +98,6 @@ FN SphericalTriangle spherical_triangle(vec3 start, vec3 apex, vec3 end, Mask as
     Real widest = minR(dot3(t.start, t.end), minR(dot3(t.start, t.apex), dot3(t.apex, t.end)));
     Mask opposite = apart & (widest < R(NEARLY_OPPOSITE));
     if (someLane(opposite)) t = widest_side_last(t, start, apex, end, opposite);
-    vec3 start_and_apex = add3(t.start, t.apex);
-    t.start_and_apex = .5f * dot3(start_and_apex, start_and_apex);
     t.rest = .5f * dot3(t.start_and_end, t.start_and_end) + dot3(t.start_and_end, t.apex);
     t.solid_angle = sel(apart, 2.f * atan2R(t.volume, t.rest), R(0.));
     return t;
@@ -114,7 +110,8 @@ FN vec3 spherical_triangle_uniform(SphericalTriangle t, vec2 u) {
     // written with the sum of start and end.
     SinCos part = sincos_turns(.5f * u.x * t.solid_angle * R(INV_TWO_PI));
     Real along = t.volume * part.cosine - t.rest * part.sine;
-    Real across = t.start_and_apex * part.sine;
+    vec3 start_and_apex = add3(t.start, t.apex);
+    Real across = .5f * dot3(start_and_apex, start_and_apex) * part.sine;
     vec3 half_way = add3(scale3(t.start, along), scale3(t.start_and_end, across));
     vec3 cut =
         sub3(scale3(half_way, 2.f * dot3(t.start, half_way) / dot3(half_way, half_way)), t.start);
