@@ -54,6 +54,7 @@ Name read_name(Imf::IStream& stream) {
     Name name{};
     // It stores one character more than it is told, the end of the name or not.
     Imf::Xdr::read<Imf::StreamIO>(stream, static_cast<int>(name.size()) - 1, name.data());
+    if (name.back() != '\0') throw Iex::InputExc("a name in the header has no end.");
     return name;
 }
 
