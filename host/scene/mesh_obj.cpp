@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 
@@ -20,6 +21,11 @@ namespace {
 
 constexpr std::size_t max_obj_bytes = std::size_t(4) << 30;
 constexpr std::size_t max_corners = 255; ///< the library counts them in a byte
+
+/// Of what the library reads as the number it is: it multiplies digits and powers of ten one by
+/// one, where more of either overflow to infinity or to 0 * infinity.
+constexpr std::size_t max_number_length = 100;
+constexpr std::int64_t max_exponent = 200;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -35,6 +41,14 @@ void split_line(std::string_view line, std::vector<std::string_view>& words) {
     }
 }
 
+bool is_readable(std::string_view number) {
+    if (!parse_number(number) || number.size() > max_number_length) return false;
+    const std::size_t e = number.find_first_of("eE");
+    if (e == std::string_view::npos) return true;
+    const auto exponent = parse_integer(number.substr(e + 1));
+    return exponent && std::abs(*exponent) <= max_exponent;
+}
+
 /// The library takes 0 for a number it cannot read; so all numbers are looked at beforehand.
 void check_numbers(const std::vector<std::string_view>& words, std::size_t needed,
                    const SourceLocation& place) {
@@ -42,7 +56,10 @@ void check_numbers(const std::vector<std::string_view>& words, std::size_t neede
         refuse(place, in_quotes(words[0]) + " takes at least " + std::to_string(needed) +
                           " numbers, found " + std::to_string(words.size() - 1));
     for (std::size_t i = 1; i < words.size(); ++i)
-        if (!parse_number(words[i])) refuse(place, in_quotes(words[i]) + " is not a finite number");
+        if (!is_readable(words[i]))
+            refuse(place, in_quotes(words[i]) + " is not a finite number of at most " +
+                              std::to_string(max_number_length) +
+                              " characters and an exponent of " + std::to_string(max_exponent));
 }
 
 /// Looks at every line and keeps from the library what is not used: it takes numbers there that no

@@ -13,8 +13,8 @@
 namespace parhelion::fuzz {
 
 /// Throws std::logic_error, which is a find, if `good` is false.
-inline void promise(bool good, const std::string& what) {
-    if (!good) throw std::logic_error("broken promise: " + what);
+inline void promise(bool good, const char* what) {
+    if (!good) throw std::logic_error(std::string("broken promise: ") + what);
 }
 
 /// A line that a terminal can show: not empty, no control characters.

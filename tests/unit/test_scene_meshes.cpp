@@ -196,6 +196,8 @@ TEST_CASE("scene meshes: OBJ lines that cannot be read") {
         {"v 0 0\n", "a.obj:1"},
         {"v 0 0 nan\n", "a.obj:1: \"nan\""},
         {"v 0 0 1e999\n", "a.obj:1: \"1e999\""},
+        {"v 0 0 0E500000\n", "a.obj:1: \"0E500000\""}, // the library: 0 * infinity
+        {"v 0 0 0." + std::string(400, '0') + "1e400\n", "an exponent of 200"},
         {"\nvn 0 a 1\n", "a.obj:2: \"a\""},
         {"vt x\n", "a.obj:1: \"x\""},
     };
