@@ -23,6 +23,7 @@ struct OptionRules {
     std::vector<std::string> needs{}; ///< options that must be given with it
     char delimiter = 0;               ///< between the values of a list; 0: one value an occurrence
     std::string group{};              ///< heading in the help; empty: the usual one
+    bool of_samples = false;          ///< has a say in what a sample of a pixel is
 };
 
 /// One row of a subcommand's table.

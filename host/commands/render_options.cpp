@@ -8,14 +8,29 @@
 namespace parhelion {
 namespace {
 
+void append(std::vector<Option>& options, const std::vector<Option>& more) {
+    options.insert(options.end(), more.begin(), more.end());
+}
+
+std::vector<Option> of_samples(std::vector<Option> options) {
+    for (Option& option : options)
+        option.rules.of_samples = true;
+    return options;
+}
+
+std::vector<Option> sampling_options(RenderCommand& c) {
+    return of_samples({
+        {"--spp", &c.samples, "Samples per pixel"},
+        {"--size", &c.size, "Film size, WIDTHxHEIGHT"},
+        {"--seed", &c.seed, "Seed of the random numbers"},
+    });
+}
+
 std::vector<Option> image_options(RenderCommand& c) {
     return {
         {"scene", &c.scene_file, "Scene file (Mitsuba 3 XML)", {.required = true}},
         {"-o,--output", &c.output, "Image to write, .exr or .png"},
-        {"--spp", &c.samples, "Samples per pixel"},
-        {"--size", &c.size, "Film size, WIDTHxHEIGHT"},
         {"--crop", &c.crop, "Part of the film, X,Y,WIDTH,HEIGHT"},
-        {"--seed", &c.seed, "Seed of the random numbers"},
         {"--exposure", &c.exposure, "Stops of exposure for .png"},
         {"--stats", &c.stats_file, "Write times, counts and memory as JSON"},
         {"--force", &c.force, "Overwrite files that exist"},
@@ -26,6 +41,31 @@ std::vector<Option> image_options(RenderCommand& c) {
          "what rounding does"},
         {"--threads", &c.threads, "CPU threads, 0 for all"},
     };
+}
+
+std::vector<Option> light_options(RenderCommand& c) {
+    return of_samples({
+        {"--integrator", &c.integrator, "path, direct, normals, depth or aov"},
+        {"--max-depth", &c.max_depth,
+         "Longest path in edges: 1 emitters only, 2 direct light, -1 no limit"},
+        {"--rr-depth", &c.rr_depth, "Russian roulette from this many vertices on"},
+        {"!--no-next-event", &c.next_event, "Do not sample emitters"},
+        {"--shading-normals", &c.shading_normals,
+         "consistent (smooth meshes get no light from below their geometry, the default) or raw "
+         "(interpolated normals as they are, as in Mitsuba 3)"},
+        {"!--no-energy-compensation", &c.energy_compensation, energy_compensation_help},
+        {"--sampler", &c.sampler,
+         "sobol (a pattern over the samples of a pixel, the default) or independent"},
+        {"--filter-by", &c.filter_method,
+         "splatting (a sample counts for all pixels that the filter reaches, the default) or "
+         "sampling (for one pixel alone: pixels are independent)"},
+        {"--aov",
+         &c.aovs,
+         "Layers beside the image, e.g. albedo,normals,depth",
+         {.delimiter = ','}},
+        {"-D,--define", &c.definitions, "name=value for the scene's $name (repeat for more)"},
+        {"--allow-outside", &c.allow_outside, "Let the scene name files outside its own folder"},
+    });
 }
 
 std::vector<Option> trace_options(RenderCommand& c) {
@@ -71,32 +111,11 @@ std::vector<Option> program_options(RenderCommand& c) {
 } // namespace
 
 std::vector<Option> kernel_options(RenderCommand& c) {
-    std::vector<Option> options{
-        {"--integrator", &c.integrator, "path, direct, normals, depth or aov"},
-        {"--max-depth", &c.max_depth,
-         "Longest path in edges: 1 emitters only, 2 direct light, -1 no limit"},
-        {"--rr-depth", &c.rr_depth, "Russian roulette from this many vertices on"},
-        {"!--no-next-event", &c.next_event, "Do not sample emitters"},
-        {"--shading-normals", &c.shading_normals,
-         "consistent (smooth meshes get no light from below their geometry, the default) or raw "
-         "(interpolated normals as they are, as in Mitsuba 3)"},
-        {"!--no-energy-compensation", &c.energy_compensation, energy_compensation_help},
-        {"--sampler", &c.sampler,
-         "sobol (a pattern over the samples of a pixel, the default) or independent"},
-        {"--filter-by", &c.filter_method,
-         "splatting (a sample counts for all pixels that the filter reaches, the default) or "
-         "sampling (for one pixel alone: pixels are independent)"},
-        {"--aov",
-         &c.aovs,
-         "Layers beside the image, e.g. albedo,normals,depth",
-         {.delimiter = ','}},
-        {"-D,--define", &c.definitions, "name=value for the scene's $name (repeat for more)"},
-        {"--device", &c.device, "Device by index or part of its name (see `parhelion devices`)"},
-        {"-q,--quiet", &c.quiet, "No progress"},
-        {"--allow-outside", &c.allow_outside, "Let the scene name files outside its own folder"},
-    };
-    for (const Option& option : program_options(c))
-        options.push_back(option);
+    std::vector<Option> options = light_options(c);
+    append(options, {{"--device", &c.device,
+                      "Device by index or part of its name (see `parhelion devices`)"},
+                     {"-q,--quiet", &c.quiet, "No progress"}});
+    append(options, program_options(c));
     return options;
 }
 
@@ -118,9 +137,10 @@ void check_split(const RenderOptions& options) {
 }
 
 std::vector<Option> render_options(RenderCommand& c) {
-    std::vector<Option> options = image_options(c);
-    for (const std::vector<Option>& more : {trace_options(c), kernel_options(c), pool_options(c)})
-        options.insert(options.end(), more.begin(), more.end());
+    std::vector<Option> options = sampling_options(c);
+    for (const std::vector<Option>& more :
+         {image_options(c), trace_options(c), kernel_options(c), pool_options(c)})
+        append(options, more);
     return options;
 }
 

@@ -194,6 +194,6 @@ TEST_CASE("The warning names stage, place and the command to follow the sample",
                          Contains("3 in shade (bsdf)") &&
                          Contains("pixel 3,4 sample 5: shade (bsdf, bounce 2)"));
     CHECK_THAT(text, Contains("parhelion render 'my scene.xml' --pixel 3,4 --sample 5 --trace "
-                              "-D light=bright --size 32x16 --spp 64 --seed 7 "
-                              "--shading-normals raw --no-energy-compensation --aov albedo,depth"));
+                              "--spp 64 --size 32x16 --seed 7 --shading-normals raw "
+                              "--no-energy-compensation --aov albedo,depth --define light=bright"));
 }

@@ -1,0 +1,66 @@
+// Options as a shell would be given them again.
+#include "host/commands/command_text.h"
+
+#include <fmt/format.h>
+
+namespace parhelion {
+namespace {
+
+/// The last of its names, without what says that a flag clears.
+std::string name_of(const Option& option) {
+    std::size_t last = option.names.rfind(',');
+    std::string name = option.names.substr(last == std::string::npos ? 0 : last + 1);
+    return name.substr(name.find('-'));
+}
+
+std::string text_of(const std::string& value) { return quoted_for_shell(value); }
+template<class Number>
+std::string text_of(const Number& value) {
+    return fmt::format("{}", value);
+}
+
+template<class T>
+std::string given(const Option&, const T&) {
+    return "";
+}
+
+template<class T>
+std::string given(const Option& option, const std::optional<T>& value) {
+    return value ? fmt::format(" {} {}", name_of(option), text_of(*value)) : "";
+}
+
+std::string given(const Option& option, const bool& value) {
+    bool clears = option.names[0] == '!';
+    return value != clears ? " " + name_of(option) : "";
+}
+
+std::string given(const Option& option, const std::vector<std::string>& values) {
+    std::string text;
+    if (option.rules.delimiter == 0)
+        for (const std::string& value : values)
+            text += fmt::format(" {} {}", name_of(option), quoted_for_shell(value));
+    else if (!values.empty())
+        text = fmt::format(
+            " {} {}", name_of(option),
+            quoted_for_shell(fmt::format(
+                "{}", fmt::join(values, std::string_view(&option.rules.delimiter, 1)))));
+    return text;
+}
+
+} // namespace
+
+std::string quoted_for_shell(const std::string& text) {
+    constexpr const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+                                  "-_./=,:+@%";
+    if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+    std::string out = "'";
+    for (char c : text)
+        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+std::string given_option(const Option& option) {
+    return std::visit([&](const auto* target) { return given(option, *target); }, option.target);
+}
+
+} // namespace parhelion
