@@ -27,7 +27,10 @@ CLI::Option* add_value(CLI::App& app, const Option& option, T& target) {
 }
 
 CLI::Option* add_value(CLI::App& app, const Option& option, bool& target) {
-    return app.add_flag(option.names, target, option.help);
+    if (option.names[0] != '!') return app.add_flag(option.names, target, option.help);
+    // The library's own way to clear shows "{false}" behind the name.
+    return app.add_flag_callback(
+        option.names.substr(1), [&target] { target = false; }, option.help);
 }
 
 CLI::Option* add_option(CLI::App& app, const Option& option) {
