@@ -4,7 +4,7 @@
 // the same work goes to plain threads: who shares it out makes no difference to races in the work.
 #pragma once
 
-#ifndef __SANITIZE_THREAD__
+#ifndef PARHELION_PLAIN_THREADS
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
