@@ -90,11 +90,10 @@ SeedStatistics render_seeds(StressRun& run, const closed_form::Row& row, std::ui
     return s;
 }
 
-/// Whether the errors of seeds, of relative standard deviation `spread`, are those of many samples:
-/// more than rounding, and more than a sample in a million that all of its light is lost to. Light
-/// points that lie nearer to a curved wall's ray than the ray's origin lies off the wall are below
-/// its horizon, a share of origin distance / diameter of the wall. A t-test knows no such rare
-/// jumps.
+/// Whether the errors of seeds, of relative standard deviation `spread`, come from many samples:
+/// from more than rounding, and from more than one sample in a million that loses its light. There
+/// are such: rays start a little off a curved wall, so that its nearest light points lie below
+/// their horizon. A t-test of ten seeds knows no jumps as rare as that.
 bool has_variance(const closed_form::Row& row, const SeedStatistics& s, double spread) {
     double of_a_sample = spread * std::sqrt(static_cast<double>(s.samples));
     return spread > 20 * (2e-7 + row.tolerance) && of_a_sample > 1e-3;
