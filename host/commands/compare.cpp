@@ -4,6 +4,7 @@
 #include "host/commands/compare_report.h"
 #include "host/error.h"
 #include "host/image/exr.h"
+#include "host/image/own_variance.h"
 
 #include <algorithm>
 #include <array>
@@ -73,6 +74,16 @@ void check(bool good, const std::string& option, const std::string& accepted) {
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
 
+/// Own variances come with their samples; those of a file do not.
+void check_variance(const CompareOptions& options) {
+    if (options.variance.empty()) return;
+    const bool own = options.variance == own_variance;
+    if (own && (options.samples || options.test.reference_samples || options.xyz_statistics))
+        throw InputError("command line: --variance own: takes the samples of the images' own "
+                         "layers, in RGB; no --spp, --reference-spp or --xyz-statistics");
+    if (!own && !options.samples) throw InputError("command line: --variance: a file needs --spp");
+}
+
 std::vector<Option> limit_options(CompareOptions& c) {
     std::vector<Option> options;
     options.reserve(limit_kinds.size());
@@ -83,11 +94,10 @@ std::vector<Option> limit_options(CompareOptions& c) {
 
 std::vector<Option> z_test_options(CompareOptions& c) {
     return {
-        {"--variance",
-         &c.variance,
-         "EXR with the variance of one sample of each pixel: z-tests of the pixels and the mean",
-         {.needs = {"--spp"}}},
-        {"--spp", &c.test.samples, "Samples per pixel of A", {.needs = {"--variance"}}},
+        {"--variance", &c.variance,
+         "EXR with the variance of one sample of each pixel (with --spp), or `own`, the layers "
+         "variance and samples of A, and of B if it has them: z-tests of the pixels and the mean"},
+        {"--spp", &c.samples, "Samples per pixel of A", {.needs = {"--variance"}}},
         {"--reference-spp",
          &c.test.reference_samples,
          "Samples per pixel of B (default: B is exact)",
@@ -123,6 +133,7 @@ std::vector<Option> compare_options(CompareOptions& c) {
 }
 
 void check_options(const CompareOptions& options) {
+    check_variance(options);
     for (const LimitKind& kind : limit_kinds)
         if (const std::optional<double>& limit = options.*kind.limit)
             check(not_negative(*limit), std::string("--") + kind.name, "a number, 0 or more");
@@ -130,7 +141,7 @@ void check_options(const CompareOptions& options) {
     check(positive(options.figures.pixels_per_degree), "--ppd", "a number above 0");
     // Larger ones only make filters that no image is large enough for.
     check(options.figures.pixels_per_degree <= 10000.0, "--ppd", "at most 10000");
-    check(positive(options.test.samples), "--spp", "a number above 0");
+    check(positive(options.samples.value_or(1.0)), "--spp", "a number above 0");
     check(positive(options.test.reference_samples.value_or(1.0)), "--reference-spp",
           "a number above 0");
     check(options.test.alpha > 0.0 && options.test.alpha < 1.0, "--alpha", "between 0 and 1");
@@ -140,15 +151,20 @@ void check_options(const CompareOptions& options) {
 int run_compare(const CompareOptions& options, std::ostream& out) {
     check_options(options);
     const Image image = read_exr(options.image), reference = read_exr(options.reference);
+    const NamedImage a{options.image, image}, b{options.reference, reference};
     Image variance;
     std::optional<VarianceInput> variance_input;
-    if (!options.variance.empty()) {
+    if (options.variance == own_variance) {
+        variance = variance_of_difference(a, b);
+        variance_input.emplace(
+            VarianceInput{{a.name, variance}, false, own_variance_test(options.test, image)});
+    } else if (!options.variance.empty()) {
         variance = read_exr(options.variance);
         variance_input.emplace(
             VarianceInput{{options.variance, variance}, options.xyz_statistics, options.test});
+        variance_input->test.samples = options.samples.value();
     }
-    const Comparison comparison = compare_images(
-        {options.image, image}, {options.reference, reference}, options.figures, variance_input);
+    const Comparison comparison = compare_images(a, b, options.figures, variance_input);
     if (options.flip && !comparison.flip)
         throw InputError(options.image + ": --flip needs R, G and B with finite values");
     const std::vector<Judgement> judgements = judge(options, comparison);
@@ -170,6 +186,7 @@ Subcommand compare_subcommand() {
             "Examples:\n"
             "  parhelion compare image.exr reference.exr\n"
             "  parhelion compare image.exr reference.exr --relmse 1e-3 --bias 0.005 --json\n"
+            "  parhelion compare image.exr reference.exr --variance own\n"
             "  parhelion compare image.exr reference.exr --variance variance.exr --spp 64",
         .options = compare_options(*c),
         .run = [c] { return run_compare(*c, std::cout); },

@@ -19,8 +19,9 @@ struct CompareOptions {
     /// Largest values accepted; absent: reported, not judged.
     std::optional<double> rmse, relmse, mae, bias, max, flip;
 
-    std::string variance; ///< file of per-sample variances; empty: no z-test
+    std::string variance; ///< file of per-sample variances, or own_variance; empty: no z-test
     bool xyz_statistics = false;
+    std::optional<double> samples; ///< per pixel of the image; absent: its own layer's
     ZTestOptions test;
 };
 

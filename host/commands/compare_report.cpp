@@ -45,6 +45,13 @@ void print_figures(std::ostream& out, const Comparison& comparison) {
     }
 }
 
+std::string variances_of(const CompareOptions& options) {
+    if (!options.samples) return "the images' own variances";
+    const std::optional<double>& reference = options.test.reference_samples;
+    return fmt::format("{:g} samples a pixel; B {}", *options.samples,
+                       reference ? fmt::format("{:g} samples", *reference) : "exact");
+}
+
 void print_z_test(std::ostream& out, const ZTest& test, const CompareOptions& options,
                   std::size_t negative_variances) {
     const PixelTest& pixels = test.pixels;
@@ -58,13 +65,9 @@ void print_z_test(std::ostream& out, const ZTest& test, const CompareOptions& op
                            "{}\n",
                            "z-test of mean " + mean.channel, mean.difference, mean.standard_error,
                            mean.z, mean.p, test.mean_alpha, verdict(mean.p > test.mean_alpha));
-    out << fmt::format("{:<24}{:g} samples a pixel; B {}; independent pixels; variance floor {:g} "
-                       "(pixels alone){}\n",
-                       "  assumed", options.test.samples,
-                       options.test.reference_samples
-                           ? fmt::format("{:g} samples", *options.test.reference_samples)
-                           : std::string("exact"),
-                       options.test.variance_floor,
+    out << fmt::format("{:<24}{}; independent pixels and samples; variance floor {:g} (pixels "
+                       "alone){}\n",
+                       "  assumed", variances_of(options), options.test.variance_floor,
                        options.xyz_statistics ? "; tested as XYZ" : "");
     if (negative_variances > 0)
         out << fmt::format("{:<24}{} variances are below zero\n", "  note", negative_variances);
@@ -97,10 +100,12 @@ ordered_json to_json(const ZTest& test, const CompareOptions& options,
                          {"z", mean.z},
                          {"p", mean.p},
                          {"pass", mean.p > test.mean_alpha}});
-    ordered_json reference_samples = nullptr;
+    ordered_json samples = nullptr, reference_samples = nullptr;
+    if (options.samples) samples = *options.samples;
     if (options.test.reference_samples) reference_samples = *options.test.reference_samples;
     return {
-        {"samples_per_pixel", options.test.samples},
+        {"own_variance", !options.samples},
+        {"samples_per_pixel", samples},
         {"reference_samples_per_pixel", reference_samples},
         {"alpha", options.test.alpha},
         {"variance_floor", options.test.variance_floor},

@@ -25,13 +25,6 @@ std::string channel_names(const Image& image) {
     return names;
 }
 
-void check_windows(const NamedImage& a, const NamedImage& b) {
-    if (a.image.width != b.image.width || a.image.height != b.image.height ||
-        a.image.offset_x != b.image.offset_x || a.image.offset_y != b.image.offset_y)
-        throw InputError(a.name + " has " + window_text(a.image) + ", " + b.name + " has " +
-                         window_text(b.image) + ": only equal windows can be compared");
-}
-
 void check_finite(const NamedImage& a, const NamedImage& b, const NonFinite& counts) {
     if (counts.different == 0) return;
     const LargestError& first = counts.first_different;
@@ -129,6 +122,13 @@ void add_z_test(Comparison& comparison, const std::vector<ChannelPair>& pairs,
 }
 
 } // namespace
+
+void check_windows(const NamedImage& a, const NamedImage& b) {
+    if (a.image.width != b.image.width || a.image.height != b.image.height ||
+        a.image.offset_x != b.image.offset_x || a.image.offset_y != b.image.offset_y)
+        throw InputError(a.name + " has " + window_text(a.image) + ", " + b.name + " has " +
+                         window_text(b.image) + ": only equal windows can be compared");
+}
 
 std::vector<ChannelPair> common_channels(const Image& image, const Image& reference,
                                          const std::string& layer) {

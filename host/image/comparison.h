@@ -45,6 +45,9 @@ struct Comparison {
     std::size_t negative_variances = 0; ///< rounding in the variance file; kept as they are
 };
 
+/// Throws InputError for images of other sizes or windows.
+void check_windows(const NamedImage& a, const NamedImage& b);
+
 /// The channels of one layer that both images have: R, G, B and A where there is any of R, G, B in
 /// the main layer (a depth beside them is another thing), else all.
 std::vector<ChannelPair> common_channels(const Image& image, const Image& reference,

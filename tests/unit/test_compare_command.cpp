@@ -2,6 +2,7 @@
 #include "host/commands/compare.h"
 #include "host/error.h"
 #include "host/image/exr.h"
+#include "host/image/own_variance.h"
 #include "host/image/srgb.h"
 #include "test_image_tools.h"
 
@@ -217,12 +218,51 @@ TEST_CASE("compare: the z-tests decide the exit code") {
 
     CompareOptions options = compare_options(b, r);
     options.variance = v;
-    options.test.samples = 100;
+    options.samples = 100;
     const nlohmann::json json = report(options, 1).at("z_test");
     CHECK(json.at("pixels").at("pass") == true); // blind to this bias
     CHECK(json.at("mean").at("pass") == false);
     CHECK(json.at("mean").at("channels")[0].at("standard_error").get<double>() ==
           Approx(0.02 / 16).epsilon(1e-6));
+}
+
+TEST_CASE("compare: an image's own variance and samples") {
+    const TemporaryFolder folder;
+    std::mt19937 random(6);
+    std::normal_distribution<float> normal;
+    const std::string components[] = {"R", "G", "B"};
+    const Image truth = rgb_image(1, 2, 3);
+    const auto noisy = [&](float samples, float bias) {
+        Image image = truth;
+        for (int c = 0; c < 3; ++c)
+            for (float& value : image.channels[c].values)
+                value += bias + normal(random) * 0.2f / std::sqrt(samples);
+        for (const std::string& component : components)
+            add_channel(image, "variance." + component, std::vector(edge * edge, 0.04f));
+        add_channel(image, "samples.N", std::vector(edge * edge, samples));
+        return image;
+    };
+    const std::string a = store(folder, "a.exr", noisy(100, 0)),
+                      b = store(folder, "b.exr", noisy(100, 0.01f)),
+                      few = store(folder, "few.exr", noisy(4, 0.f)),
+                      one = store(folder, "one.exr", noisy(1, 0.f)),
+                      r = store(folder, "r.exr", truth);
+    CHECK(run({a, r, "--variance", "own"}) == 0);
+    CHECK(run({b, r, "--variance", "own"}) == 1);
+    CHECK(run({few, r, "--variance", "own"}) == 0);
+    CHECK(run({a, few, "--variance", "own"}) == 0); // B's counts as well
+    CHECK(run({r, a, "--variance", "own"}) == 2);   // has none
+    CHECK(run({one, r, "--variance", "own"}) == 2);
+    CHECK(run({a, one, "--variance", "own"}) == 2);
+    CHECK(run({a, r, "--variance", "own", "--spp", "100"}) == 2);
+    CHECK(run({a, r, "--variance", "own", "--reference-spp", "100"}) == 2);
+
+    CompareOptions options = compare_options(a, few);
+    options.variance = own_variance;
+    const nlohmann::json json = report(options, 0).at("z_test");
+    CHECK(json.at("own_variance") == true);
+    CHECK(json.at("mean").at("channels")[0].at("standard_error").get<double>() ==
+          Approx(0.2 * std::sqrt(1. / 100 + 1. / 4) / edge).epsilon(1e-6));
 }
 
 TEST_CASE("compare: Mitsuba's references pass with noise of their own variance and not without") {
