@@ -26,11 +26,14 @@ CLI::Option* add_value(CLI::App& app, const Option& option, T& target) {
     return added;
 }
 
+/// A flag that is given a value is refused: the library reads some numbers and the start of others.
 CLI::Option* add_value(CLI::App& app, const Option& option, bool& target) {
-    if (option.names[0] != '!') return app.add_flag(option.names, target, option.help);
-    // The library's own way to clear shows "{false}" behind the name.
-    return app.add_flag_callback(
-        option.names.substr(1), [&target] { target = false; }, option.help);
+    const bool clears = option.names[0] == '!'; // the library's own way shows "{false}" in the help
+    const std::string names = option.names.substr(clears ? 1 : 0);
+    return app
+        .add_flag_callback(
+            names, [&target, clears] { target = !clears; }, option.help)
+        ->disable_flag_override();
 }
 
 CLI::Option* add_option(CLI::App& app, const Option& option) {
