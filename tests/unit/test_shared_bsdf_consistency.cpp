@@ -1,6 +1,8 @@
 // Every material of the list: sample, eval and pdf tell one story; reciprocity; energy.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 #include "host/stress/energy.h"
 #include "host/stress/materials.h"
 #include "host/stress/statistics.h"
@@ -12,7 +14,8 @@ namespace {
 
 /// What a rounding of wo or wi by one epsilon can change, in double: of f cos / pdf by channel, and
 /// of the logarithm of the pdf. It measures how well the question is posed: the half vector of
-/// opposite grazing directions is not. To either side: at a lobe's peak the slope is 0.
+/// opposite grazing directions is not. The larger change of both sides: at a lobe's peak the slope
+/// is 0.
 struct Sensitivity {
     double quotient[3] = {0, 0, 0};
     double log_pdf = 0;
@@ -22,22 +25,31 @@ Sensitivity sensitivity(const f64::Material& m, f64::vec3 wo, f64::vec3 wi, doub
     const double step = 1e-7;
     Sensitivity s;
     auto here = bsdf_eval(m, wo, wi);
-    auto add = [&](f64::vec3 o, f64::vec3 i) {
-        auto there = bsdf_eval(m, o, i);
-        bool border = !(here.pdf > 0 && there.pdf > 0);
-        for (int k = 0; k < 3; k++)
-            s.quotient[k] += border ? INFINITY
-                                    : std::fabs(component(there.f, k) / there.pdf -
-                                                component(here.f, k) / here.pdf) *
-                                          (epsilon / step);
-        s.log_pdf +=
-            border ? INFINITY : std::fabs(std::log(there.pdf / here.pdf)) * (epsilon / step);
-    };
-    for (double d : {step, -step})
-        for (auto axis : {f64::v3(d, 0, 0), f64::v3(0, d, 0), f64::v3(0, 0, d)}) {
-            add(f64::add3(wo, axis), wi);
-            add(wo, f64::add3(wi, axis));
+    auto along = [&](auto moved) {
+        Sensitivity larger;
+        for (double d : {step, -step}) {
+            auto there = moved(d);
+            if (!(here.pdf > 0 && there.pdf > 0))
+                return Sensitivity{{INFINITY, INFINITY, INFINITY}, INFINITY}; // at a border
+            for (int k = 0; k < 3; k++)
+                larger.quotient[k] =
+                    std::max(larger.quotient[k], std::fabs(component(there.f, k) / there.pdf -
+                                                           component(here.f, k) / here.pdf));
+            larger.log_pdf = std::max(larger.log_pdf, std::fabs(std::log(there.pdf / here.pdf)));
         }
+        return larger;
+    };
+    auto take = [&](const Sensitivity& more) {
+        for (int k = 0; k < 3; k++)
+            s.quotient[k] += more.quotient[k] * (epsilon / step);
+        s.log_pdf += more.log_pdf * (epsilon / step);
+    };
+    for (auto axis : {f64::v3(1, 0, 0), f64::v3(0, 1, 0), f64::v3(0, 0, 1)}) {
+        take(
+            along([&](double d) { return bsdf_eval(m, f64::add3(wo, f64::scale3(axis, d)), wi); }));
+        take(
+            along([&](double d) { return bsdf_eval(m, wo, f64::add3(wi, f64::scale3(axis, d))); }));
+    }
     return s;
 }
 
