@@ -86,6 +86,8 @@ TEST_CASE("compare: exit codes follow the limits") {
     CHECK(run({a, b, "--mae", "0.0833"}) == 1);
     CHECK(run({a, b, "--bias", "1"}) == 0); // 0.25 over 0.25
     CHECK(run({a, b, "--bias", "0.999"}) == 1);
+    CHECK(run({b, a, "--bias", "0.5"}) == 0); // 0.25 too little, over 0.5
+    CHECK(run({b, a, "--bias", "0.499"}) == 1);
     CHECK(run({a, b, "--relmse", "0.288"}) == 0); // 0.0625 / (0.0625 + 0.01) / 3 = 0.28736
     CHECK(run({a, b, "--relmse", "0.287"}) == 1);
     CHECK(run({a, b, "--relmse", "0.167", "--epsilon", "0.0625"}) == 0); // 1 / 6
