@@ -59,14 +59,33 @@ FN SurfaceInteraction surface_at(Primitive p, PathVertex v, global const VertexR
     return s;
 }
 
-/// Radiance of the sky for lanes that missed everything, weighted against next event estimation.
+/// Paths that have met nothing yet but what let them straight through. Alpha tells: it is 0 for
+/// them.
+FN Mask uncovered(global const Scalar* results, long stride, PathVertex v) {
+    return v.active & (gather(results + result_alpha * stride, v.slot) == R(0.));
+}
+
+/// The lanes cover their pixels. What went wrong before has its own use for alpha.
+FN void cover(global Scalar* results, long stride, PathVertex v, Mask lanes) {
+    Real weight = gather(results + result_weight * stride, v.slot);
+    Mask newly = lanes & uncovered(results, stride, v) & (weight == weight);
+    scatter_add(results + result_alpha * stride, v.slot, R(1.), maskBits(newly));
+}
+
+/// Of the lanes, those on a surface that may let their rays straight through.
+FN Mask passing_surface(Mask lanes, Material m) {
+    return lanes & (((((Int)1) << m.kind) & PASSING_MATERIALS) != 0);
+}
+
+/// Radiance of the sky for lanes that missed everything, weighted against next event estimation;
+/// nothing for the hidden ones.
 FN vec3 sky_emission(PathVertex v, global const LightRecord* lights, RenderParams params,
-                     int depth) {
+                     Mask hidden) {
     Light sky = load_Light(lights, (Int)params.constant_light);
     Real weight = R(1.);
     if (HAS(next_event))
         weight = power_heuristic(v.pdf, emitter_constant_pdf(sky, v.origin, v.direction, v.origin));
-    if (HAS(hide_emitters) && depth == 0) weight = R(0.);
+    if (HAS(hide_emitters)) weight = sel(hidden, R(0.), weight);
     return scale3(light_radiance(sky), weight);
 }
 
@@ -78,7 +97,7 @@ FN vec3 surface_emission(PathVertex v, Primitive p, SurfaceInteraction s,
     vec3 emitted = splat3(R(0.));
     if (someLane(emits)) {
         Int row = (Int)0;
-        if (HAS(light_tree)) row = sel(emits, p.light, row);
+        if (HAS(several_lights)) row = sel(emits, p.light, row);
         Light light = load_Light(lights, row);
         // Next event estimation has no part in what the camera or a mirror sees.
         Mask weighted = emits & finiteR(v.pdf);
@@ -145,7 +164,6 @@ kernel void shade(KERNEL_PARAMETERS) {
 
         // ---- what is seen
         vec3 seen = splat3(R(0.));
-        Mask covered = v.hit;
         if (HAS(view_normals)) seen = scale3(add3(surface.ns, splat3(R(1.))), R(.5));
         if (HAS(view_depth)) seen = splat3(v.t);
         if (HAS(view_normals) || HAS(view_depth)) seen = sel3(v.hit, seen, splat3(R(0.)));
@@ -153,9 +171,11 @@ kernel void shade(KERNEL_PARAMETERS) {
             seen = add3(seen,
                         surface_emission(v, primitive, surface, lights, light_nodes, light_leaves));
             if (HAS(emitter_constant)) {
-                Mask sky = v.active & !v.hit;
-                if (someLane(sky)) seen = sel3(sky, sky_emission(v, lights, params, depth), seen);
-                if (params.sky_covers) covered = covered | sky;
+                Mask sky = v.active & !v.hit, hidden = v.active & !v.active;
+                if (depth == 0) hidden = v.active;
+                if (HAS(hide_emitters) && HAS(straight_through))
+                    hidden = uncovered(results, stride, v);
+                if (someLane(sky)) seen = sel3(sky, sky_emission(v, lights, params, hidden), seen);
             }
         }
         Mask bad_emission = v.active & !v.active;
@@ -165,7 +185,15 @@ kernel void shade(KERNEL_PARAMETERS) {
             uint seen_bits = maskBits(v.active & (max_component(seen) != R(0.)));
             if (seen_bits) add_result3(results, stride, result_r, v.slot, gathered, seen_bits);
         }
-        if (depth == 0) scatter_add(RESULT(result_alpha), v.slot, R(1.), maskBits(covered));
+        if (HAS(straight_through)) {
+            Mask covered = v.hit & (max_component(seen) != R(0.));
+            if (params.sky_covers) covered = v.active;
+            cover(results, stride, v, covered);
+        } else if (depth == 0) {
+            Mask covered = v.hit;
+            if (params.sky_covers) covered = v.active;
+            scatter_add(RESULT(result_alpha), v.slot, R(1.), maskBits(covered));
+        }
         mark_bad(results, stride, v.slot, bad_hit, fault_hit, depth);
         mark_bad(results, stride, v.slot, bad_emission, fault_emission, depth);
 
@@ -193,6 +221,11 @@ kernel void shade(KERNEL_PARAMETERS) {
                        (surface.uv.x + surface.uv.y) * R(0.);
             mark_bad(results, stride, v.slot, v.hit & bad, fault_aov, depth);
             write_aovs(results, params, v, primitive, surface, material);
+        }
+        Mask may_pass = v.active & !v.active;
+        if (HAS(straight_through)) {
+            may_pass = passing_surface(need_material, material);
+            cover(results, stride, v, v.hit & !may_pass);
         }
         if (depth + 1 >= params.max_depth) continue;
         Real side = R(1.);
@@ -279,6 +312,12 @@ kernel void shade(KERNEL_PARAMETERS) {
             Mask bad = need_material & (nought3(throughput) != R(0.));
             mark_bad(results, stride, v.slot, bad, fault_bsdf, depth);
             Mask alive = need_material & (max_component(throughput) > R(0.)) & !bad;
+            if (HAS(straight_through)) {
+                Mask passes = may_pass & (wo.z * b.wi.z < R(0.));
+                cover(results, stride, v, may_pass & !passes);
+                // Without light there is but to see what stands behind.
+                if (!HAS(emission) && !HAS(next_event)) alive = alive & passes;
+            }
             if (HAS(russian_roulette) && depth + 1 >= params.rr_depth) {
                 Roulette roulette = russian_roulette(throughput, eta_scale, uniform01(r.w));
                 alive = alive & roulette.alive;

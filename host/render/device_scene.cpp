@@ -13,6 +13,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <type_traits>
 
@@ -61,17 +62,32 @@ VertexRecord vertex_record(const Mesh& mesh, const glm::uvec3& t) {
     return v;
 }
 
-bool has_vertices(const DeviceScene& scene) {
-    return scene.features & (feature_bit(feature_vertex_normals) | feature_bit(feature_vertex_uvs));
+/// What is read of meshes beside the corners of their triangles.
+struct VertexUse {
+    bool any = false; ///< by some mesh
+    bool uvs = false; ///< by lobes that lie along them, and by their AOV
+};
+
+VertexUse vertex_use(const Scene& scene, const std::vector<MaterialRecord>& materials) {
+    auto lies = [](const MaterialRecord& m) { return m.alpha_u != m.alpha_v; };
+    auto is_uv = [](const AovRequest& a) { return a.kind == "uv"; };
+    const auto& aovs = scene.integrator.aovs;
+    VertexUse use;
+    use.uvs = std::any_of(materials.begin(), materials.end(), lies) ||
+              std::any_of(aovs.begin(), aovs.end(), is_uv);
+    use.any = std::any_of(scene.shapes.begin(), scene.shapes.end(), [&](const Shape& shape) {
+        const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+        return mesh && (!mesh->normals.empty() || (use.uvs && !mesh->uvs.empty()));
+    });
+    return use;
 }
 
-void add_shape(const Mesh& mesh, const Shape& shape, int index, DeviceScene& out) {
-    int flags =
-        (mesh.normals.empty() ? 0 : PRIMITIVE_NORMALS) | (mesh.uvs.empty() ? 0 : PRIMITIVE_UVS);
-    bool attributes = has_vertices(out);
+void add_shape(const Mesh& mesh, const Shape& shape, int index, VertexUse use, DeviceScene& out) {
+    int flags = (mesh.normals.empty() ? 0 : PRIMITIVE_NORMALS) |
+                (mesh.uvs.empty() || !use.uvs ? 0 : PRIMITIVE_UVS);
     std::size_t first = out.primitives.size();
     out.primitives.resize(first + mesh.triangles.size());
-    if (attributes) out.vertices.resize(out.primitives.size());
+    if (use.any) out.vertices.resize(out.primitives.size());
     parallel_for(mesh.triangles.size(), [&](std::size_t i) {
         const glm::uvec3& t = mesh.triangles[i];
         PrimitiveRecord p = primitive(shape, index, geometry_triangle, flags);
@@ -82,47 +98,49 @@ void add_shape(const Mesh& mesh, const Shape& shape, int index, DeviceScene& out
         p.extra = inverse_normal_length(glm::dvec3(p.bx, p.by, p.bz) - a,
                                         glm::dvec3(p.cx, p.cy, p.cz) - a);
         out.primitives[first + i] = p;
-        if (attributes) out.vertices[first + i] = vertex_record(mesh, t);
+        if (use.any) out.vertices[first + i] = vertex_record(mesh, t);
     });
 }
 
-void add_analytic(const PrimitiveRecord& p, DeviceScene& out) {
+void add_analytic(const PrimitiveRecord& p, VertexUse use, DeviceScene& out) {
     out.primitives.push_back(p);
-    if (has_vertices(out)) out.vertices.push_back({});
+    if (use.any) out.vertices.push_back({});
 }
 
-void add_shape(const Sphere& in_scene, const Shape& shape, int index, DeviceScene& out) {
+void add_shape(const Sphere& in_scene, const Shape& shape, int index, VertexUse use,
+               DeviceScene& out) {
     Sphere sphere = out.frame.sphere(in_scene);
     PrimitiveRecord p =
         primitive(shape, index, geometry_sphere, sphere.flip_normals ? PRIMITIVE_FLIPPED : 0);
     set_points(p, sphere.center, sphere.axis_x, sphere.axis_z);
     p.extra = static_cast<float>(sphere.radius);
-    add_analytic(p, out);
+    add_analytic(p, use, out);
 }
 
-void add_shape(const Disk& in_scene, const Shape& shape, int index, DeviceScene& out) {
+void add_shape(const Disk& in_scene, const Shape& shape, int index, VertexUse use,
+               DeviceScene& out) {
     Disk disk = out.frame.disk(in_scene);
     PrimitiveRecord p =
         primitive(shape, index, geometry_disk, disk.flip_normals ? PRIMITIVE_FLIPPED : 0);
     set_points(p, disk.center, disk.edge_u, disk.edge_v);
     p.extra = inverse_normal_length(disk.edge_u, disk.edge_v);
-    add_analytic(p, out);
+    add_analytic(p, use, out);
 }
 
 std::size_t primitive_count(const Scene& scene) {
     std::size_t count = 0;
-    for (const Shape& shape : scene.shapes) {
-        const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
-        count += mesh ? mesh->triangles.size() : 1;
-    }
+    for (const Shape& shape : scene.shapes)
+        count += primitive_count(shape);
     return count;
 }
 
-/// Primitives a camera ray can meet: all but the emitters where those are hidden.
-std::vector<int> seen_by_camera(const DeviceScene& scene) {
+/// Primitives a camera ray can meet: all but the emitters where those are hidden, whatever their
+/// power.
+std::vector<int> seen_by_camera(const Scene& scene, const DeviceScene& device) {
     std::vector<int> subset;
-    for (std::size_t i = 0; i < scene.primitives.size(); i++)
-        if (scene.primitives[i].light < 0) subset.push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < device.primitives.size(); i++)
+        if (!scene.shapes[static_cast<std::size_t>(device.primitives[i].shape)].radiance)
+            subset.push_back(static_cast<int>(i));
     return subset;
 }
 
@@ -131,6 +149,11 @@ std::vector<int> seen_by_camera(const DeviceScene& scene) {
 float inverse_normal_length(const glm::dvec3& u, const glm::dvec3& v) {
     double inverse = 1.0 / glm::length(glm::cross(u, v));
     return inverse <= double{std::numeric_limits<float>::max()} ? static_cast<float>(inverse) : 0.f;
+}
+
+std::size_t primitive_count(const Shape& shape) {
+    const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+    return mesh ? mesh->triangles.size() : 1;
 }
 
 static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
@@ -142,17 +165,19 @@ static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
                                      count, most));
     DeviceScene out;
     out.frame = scene_frame(scene);
-    out.features = scene_features(scene, out.frame);
-    out.primitives.reserve(count);
-    if (has_vertices(out)) out.vertices.reserve(count);
-    for (std::size_t i = 0; i < scene.shapes.size(); i++)
-        std::visit([&](const auto& g) { add_shape(g, scene.shapes[i], static_cast<int>(i), out); },
-                   scene.shapes[i].geometry);
     for (const Material& material : scene.materials)
         out.materials.push_back(material_record(material.bsdf));
-    if (out.features & feature_bit(feature_energy_compensation)) add_energy_tables(scene, out);
+    VertexUse use = vertex_use(scene, out.materials);
+    out.primitives.reserve(count);
+    if (use.any) out.vertices.reserve(count);
+    for (std::size_t i = 0; i < scene.shapes.size(); i++)
+        std::visit(
+            [&](const auto& g) { add_shape(g, scene.shapes[i], static_cast<int>(i), use, out); },
+            scene.shapes[i].geometry);
     add_light_table(scene, choice, out);
-    if (!out.light_tree.nodes.empty()) out.features |= light_tree_features(out.features);
+    out.features = scene_features(scene, out);
+    add_energy_tables(scene, out);
+    if (!out.energy_tables.empty()) out.features |= feature_bit(feature_energy_compensation);
     if (out.features & feature_bit(feature_filter_splatting))
         out.filter_values = make_filter_values(scene.film.filter);
     if (out.features & feature_bit(feature_filter_sampling))
@@ -165,7 +190,7 @@ DeviceScene make_device_scene(const Scene& scene, LightChoice choice) {
     out.root = bvh_append(out.bvh, out.primitives, &out.bvh_statistics);
     out.camera_root = out.root;
     if (scene.integrator.hide_emitters) {
-        std::vector<int> visible = seen_by_camera(out);
+        std::vector<int> visible = seen_by_camera(scene, out);
         if (visible.size() < out.primitives.size())
             out.camera_root = bvh_append(out.bvh, out.primitives, visible, nullptr);
     }

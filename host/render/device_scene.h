@@ -50,6 +50,9 @@ struct DeviceScene {
 /// device's 32-bit indices.
 DeviceScene make_device_scene(const Scene& scene, LightChoice choice = LightChoice::importance);
 
+/// Of a shape; 0 for a mesh without triangles.
+std::size_t primitive_count(const Shape& shape);
+
 /// 1 / |cross(u, v)| as records keep it: 0 where the plane of u and v is none that floats know.
 float inverse_normal_length(const glm::dvec3& u, const glm::dvec3& v);
 

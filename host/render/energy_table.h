@@ -15,7 +15,7 @@ namespace parhelion {
 std::vector<float> energy_tables(const MaterialRecord& material, int azimuths);
 
 /// Adds the tables of all materials that are to be compensated, equal ones once, and tells their
-/// records where they are.
+/// records where they are; none where the kernels' features say that nothing is scattered.
 void add_energy_tables(const Scene& scene, DeviceScene& out);
 
 /// Does the material ask for it?

@@ -212,7 +212,7 @@ std::vector<Row> collect_rows(const Scene& scene, const DeviceScene& device) {
     int first = 0;
     for (const Shape& shape : scene.shapes) {
         const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
-        int count = mesh ? static_cast<int>(mesh->triangles.size()) : 1;
+        int count = static_cast<int>(primitive_count(shape));
         if (shape.radiance) {
             std::vector<bool> pairs =
                 mesh ? starts_parallelogram(*mesh, device.frame) : std::vector{false};

@@ -43,7 +43,11 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.rr_depth = scene.integrator.rr_depth;
     p.constant_light = device.constant_light;
     // As in Mitsuba 3: a visible sky is part of the picture to `path`, and behind it to `direct`.
-    p.sky_covers = scene.integrator.kind == IntegratorKind::path && !scene.integrator.hide_emitters;
+    // One of no power is there too.
+    auto is_sky = [](const Emitter& e) { return std::holds_alternative<ConstantEmitter>(e); };
+    p.sky_covers = scene.integrator.kind == IntegratorKind::path &&
+                   !scene.integrator.hide_emitters &&
+                   std::any_of(scene.emitters.begin(), scene.emitters.end(), is_sky);
     p.filter_bins =
         device.filter_table.empty() ? 0 : static_cast<int>(device.filter_table.size()) - 1;
     p.result_stride = static_cast<int>(sizes.result_stride());

@@ -19,11 +19,26 @@ struct SceneArrays {
     const std::vector<float>& filter_values;
 };
 
+/// The table, or one row of zeros where it has none: kernels look at row 0 for lanes that have hit
+/// nothing.
+template<class Table>
+const Table& with_a_row(const Table& table) {
+    static const Table zeros(1, typename Table::value_type{});
+    return table.empty() ? zeros : table;
+}
+
 inline SceneArrays scene_arrays(const DeviceScene& scene) {
-    return {scene.bvh.nodes,        scene.bvh.leaves,        scene.primitives,
-            scene.vertices,         scene.materials,         scene.lights,
-            scene.light_tree.nodes, scene.light_tree.leaves, scene.energy_tables,
-            scene.filter_table,     scene.filter_values};
+    return {scene.bvh.nodes,
+            scene.bvh.leaves,
+            with_a_row(scene.primitives),
+            scene.vertices,
+            with_a_row(scene.materials),
+            scene.lights,
+            scene.light_tree.nodes,
+            scene.light_tree.leaves,
+            scene.energy_tables,
+            scene.filter_table,
+            scene.filter_values};
 }
 
 } // namespace parhelion

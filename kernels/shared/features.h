@@ -41,10 +41,12 @@
     X(thin_lens)                                                                                   \
     X(filter_splatting)   /* a sample counts for all pixels that the filter reaches */              \
     X(filter_sampling)    /* a sample lies where the filter has put it, and counts for one pixel */ \
+    X(several_lights)     /* rows of the light table to look up what a ray has met in */            \
     X(light_tree)         /* more than one light to choose from */                                 \
     X(next_event)         /* direct light is sampled at every vertex */                            \
     X(emission)           /* emitters that a ray can meet */                                       \
     X(scattering)         /* paths go on in directions of the BSDF's choice */                      \
+    X(straight_through)   /* some surface lets rays go on as they came, and covers nothing then */  \
     X(hide_emitters)                                                                               \
     X(russian_roulette)                                                                            \
     X(view_normals) X(view_depth)                                                                  \
@@ -68,6 +70,8 @@ enum MaterialKind { MATERIALS(KIND_MATERIAL) material_kind_count };
 #define SIDES_transparent 0
 #define OPAQUE_BIT(name, sides) | (SIDES_##sides << material_##name)
 #define OPAQUE_MATERIALS (0 MATERIALS(OPAQUE_BIT)) // bit k: material kind k is opaque
+// Bit k: material kind k can let a ray go straight on, as if there were no surface.
+#define PASSING_MATERIALS ((1 << material_null) | (1 << material_thindielectric))
 #define KIND_EMITTER(name) emitter_##name,
 enum EmitterKind { EMITTERS(KIND_EMITTER) emitter_kind_count };
 #define KIND_GEOMETRY(name) geometry_##name,

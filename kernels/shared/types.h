@@ -172,7 +172,7 @@ LAYOUT(CameraRecord, 84);
     X(int, max_depth)                         /* edges from the camera; INT_MAX without limit */    \
     X(int, rr_depth)                                                                               \
     X(int, constant_light)                    /* row of the constant environment, -1: none */       \
-    X(int, sky_covers)                        /* 1: the sky counts for alpha */                     \
+    X(int, sky_covers)                        /* 1: there is a sky, and it counts for alpha */       \
     X(int, filter_bins)                       /* of filter_table */                                 \
     X(int, filter_reach)                      /* pixels on each side that a sample counts for */    \
     X(int, state_stride)                      /* floats between two fields of the path state */     \

@@ -1,7 +1,7 @@
 // The kernels in double precision are the oracle of the device's rounding: same scene, same random
 // numbers, so that images differ by rounding, and where a path takes another way for it.
-#include "host/oracle/host_render.h"
 #include "tests/support/every_kind_scene.h"
+#include "tests/support/host_render.h"
 #include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
@@ -15,8 +15,7 @@ using namespace parhelion::test;
 namespace {
 
 Image double_image(const Scene& scene) {
-    Progress quiet(Progress::Mode::quiet);
-    RenderResult result = render_on_host(scene, {}, Precision::double_precision, quiet);
+    RenderResult result = host_render(scene, Precision::double_precision);
     CHECK(result.report.non_finite_samples == 0);
     return result.image;
 }

@@ -1,6 +1,6 @@
 // The kernels compiled as C++ give the image that the device gives, to the bit, in all channels.
-#include "host/oracle/host_render.h"
 #include "tests/support/every_kind_scene.h"
+#include "tests/support/host_render.h"
 #include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
@@ -13,8 +13,7 @@ using namespace parhelion::test;
 namespace {
 
 Image host_image(const Scene& scene, const RenderOptions& options = {}) {
-    Progress quiet(Progress::Mode::quiet);
-    return render_on_host(scene, options, Precision::single_precision, quiet).image;
+    return host_render(scene, Precision::single_precision, options).image;
 }
 
 Scene scene_of(const std::string& file, int width, int height, int samples) {

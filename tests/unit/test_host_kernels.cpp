@@ -1,8 +1,8 @@
 // The kernels as C++, in small: what the sanitizers see of them. That their images are the device's
 // is for tests/render.
-#include "host/oracle/host_render.h"
 #include "host/oracle/sample_trace.h"
 #include "tests/support/every_kind_scene.h"
+#include "tests/support/host_render.h"
 
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
@@ -20,12 +20,6 @@ Scene small_scene() {
     scene.film.height = scene.film.crop_height = 9;
     scene.sampler.samples_per_pixel = 3;
     return scene;
-}
-
-RenderResult host_render(const Scene& scene, Precision precision,
-                         const RenderOptions& options = {}) {
-    Progress quiet(Progress::Mode::quiet);
-    return render_on_host(scene, options, precision, quiet);
 }
 
 bool same_values(const Image& a, const Image& b) {

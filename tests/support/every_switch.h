@@ -1,0 +1,182 @@
+// All that can be turned off and on: for each feature of the kernels what does so, made from the
+// list of features, and the integrators, AOVs and options of the command line.
+#pragma once
+
+#include "host/render/path_tracer.h"
+#include "tests/support/two_of_every.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace parhelion::test {
+
+struct Setup {
+    Scene scene;
+    RenderOptions options;
+};
+
+template<class Change>
+void change_meshes(Scene& scene, Change change) {
+    for (Shape& shape : scene.shapes)
+        if (auto* mesh = std::get_if<Mesh>(&shape.geometry)) change(*mesh);
+}
+template<class Change>
+void change_rough(Scene& scene, Change change) {
+    for (Material& m : scene.materials) {
+        if (auto* b = std::get_if<RoughConductorBsdf>(&m.bsdf)) change(*b);
+        if (auto* b = std::get_if<RoughDielectricBsdf>(&m.bsdf)) change(*b);
+    }
+}
+/// All lights but those that `stays` says of have no power; what shines stays a surface.
+template<class Stays>
+void leave_lights(Scene& scene, Stays stays) {
+    for (Shape& shape : scene.shapes)
+        if (shape.radiance && !stays(*shape.radiance)) shape.radiance = Rgb(0);
+    std::erase_if(scene.emitters, [&](const Emitter& e) {
+        auto power = [](const auto& x) {
+            if constexpr (requires { x.intensity; })
+                return x.intensity;
+            else if constexpr (requires { x.irradiance; })
+                return x.irradiance;
+            else
+                return x.radiance;
+        };
+        return !stays(std::visit(power, e));
+    });
+}
+inline void leave_light(Scene& scene, const Light& light) {
+    leave_lights(scene, [&](const Rgb& power) {
+        return power.r == light.power.r && power.g == light.power.g && power.b == light.power.b;
+    });
+}
+
+inline void set_ray_streams(Setup& s, bool on) { s.options.all_features = on; }
+inline void set_vertex_normals(Setup& s, bool on) {
+    if (!on) change_meshes(s.scene, [](Mesh& m) { m.normals.clear(); });
+}
+inline void set_consistent_normals(Setup& s, bool on) {
+    s.scene.integrator.shading_normals = on ? ShadingNormals::consistent : ShadingNormals::raw;
+}
+inline void set_vertex_uvs(Setup& s, bool on) {
+    if (!on) change_meshes(s.scene, [](Mesh& m) { m.uvs.clear(); });
+}
+inline void set_back_materials(Setup& s, bool on) {
+    for (Shape& shape : s.scene.shapes) {
+        auto kind = static_cast<std::size_t>(shape.material_front) / 2;
+        bool opaque = shape.material_front == black_material || material_is_opaque[kind];
+        if (!on && opaque) shape.material_back = no_material;
+    }
+}
+inline void set_ggx(Setup& s, bool on) {
+    if (on) return;
+    for (Material& m : s.scene.materials)
+        if (std::holds_alternative<RoughConductorBsdf>(m.bsdf) ||
+            std::holds_alternative<RoughDielectricBsdf>(m.bsdf))
+            m.bsdf = DiffuseBsdf{Rgb(0.4)};
+}
+inline void set_beckmann(Setup& s, bool on) {
+    if (!on) change_rough(s.scene, [](auto& b) { b.distribution = MicrofacetDistribution::ggx; });
+}
+inline void set_anisotropy(Setup& s, bool on) {
+    if (!on) change_rough(s.scene, [](auto& b) { b.alpha_v = b.alpha_u; });
+}
+inline void set_energy_compensation(Setup& s, bool on) { set_energy_compensation(s.scene, on); }
+inline void set_sobol(Setup& s, bool on) {
+    s.scene.sampler.pattern = on ? SamplePattern::sobol : SamplePattern::independent;
+}
+inline void set_thin_lens(Setup& s, bool on) {
+    s.scene.camera.aperture_radius = on ? 0.02 : 0, s.scene.camera.focus_distance = 20;
+}
+inline void set_filter(Setup& s, bool on, FilterMethod method) {
+    s.scene.film.filter.kind = on ? FilterKind::gaussian : FilterKind::box;
+    s.scene.film.filter_method = method;
+}
+inline void set_filter_splatting(Setup& s, bool on) { set_filter(s, on, FilterMethod::splatting); }
+inline void set_filter_sampling(Setup& s, bool on) { set_filter(s, on, FilterMethod::sampling); }
+inline void set_several_lights(Setup& s, bool on) {
+    if (!on) leave_light(s.scene, example_lights()[3]);
+}
+inline void set_light_tree(Setup& s, bool on) {
+    if (!on) leave_light(s.scene, example_lights()[5]);
+}
+inline void set_next_event(Setup& s, bool on) { s.scene.integrator.emitter_samples = on; }
+/// Without: what shines is nowhere to be met.
+inline void set_emission(Setup& s, bool on) {
+    if (!on) leave_light(s.scene, example_lights()[2 * emitter_spot]);
+}
+inline void set_scattering(Setup& s, bool on) {
+    s.scene.integrator.kind = on ? IntegratorKind::path : IntegratorKind::direct;
+    s.scene.integrator.bsdf_samples = on;
+}
+inline void set_straight_through(Setup& s, bool on) {
+    if (on) return;
+    for (Material& m : s.scene.materials)
+        if ((PASSING_MATERIALS >> m.bsdf.index()) & 1) m.bsdf = DiffuseBsdf{Rgb(0.4)};
+}
+inline void set_hide_emitters(Setup& s, bool on) { s.scene.integrator.hide_emitters = on; }
+inline void set_russian_roulette(Setup& s, bool on) { s.scene.integrator.rr_depth = on ? 1 : 9; }
+inline void set_view_normals(Setup& s, bool on) {
+    if (on) s.scene.integrator.kind = IntegratorKind::normals;
+}
+inline void set_view_depth(Setup& s, bool on) {
+    if (on) s.scene.integrator.kind = IntegratorKind::depth;
+}
+inline void set_moments(Setup& s, bool on) { s.scene.integrator.second_moment = on; }
+inline void ask_aov(Setup& s, const char* kind) {
+    auto& aovs = s.scene.integrator.aovs;
+    auto same = [&](const AovRequest& a) { return a.kind == kind; };
+    if (std::none_of(aovs.begin(), aovs.end(), same)) aovs.push_back({kind, kind, {}});
+}
+inline void set_variance(Setup& s, bool on) {
+    if (on) ask_aov(s, "variance");
+}
+inline void set_aovs(Setup& s, bool on) {
+    if (on) ask_aov(s, "albedo");
+}
+
+struct Switch {
+    const char* name;
+    Feature feature;
+    void (*set)(Setup&, bool on);
+};
+#define FEATURE_SWITCH(name) Switch{#name, feature_##name, set_##name},
+inline constexpr std::array feature_switches{OTHER_FEATURES(FEATURE_SWITCH)};
+
+struct State {
+    std::string name;
+    std::function<void(Setup&)> set;
+};
+
+inline State integrator_state(const char* name, IntegratorKind kind, int max_depth,
+                              int strategies) {
+    return {name, [=](Setup& s) {
+                Integrator& i = s.scene.integrator;
+                i.kind = kind, i.max_depth = max_depth;
+                i.emitter_samples = strategies & 1, i.bsdf_samples = strategies & 2;
+            }};
+}
+
+/// Both of every feature, and one of everything else.
+inline std::vector<State> every_state() {
+    std::vector<State> states;
+    for (const Switch& s : feature_switches)
+        for (bool on : {false, true})
+            states.push_back({std::string(s.name) + (on ? " on" : " off"),
+                              [&s, on](Setup& setup) { s.set(setup, on); }});
+#define AOV_STATE(name, channels, suffixes)                                                        \
+    states.push_back({"aov " #name, [](Setup& s) { ask_aov(s, #name); }});
+    AOVS(AOV_STATE)
+    FILM_AOVS(AOV_STATE)
+    states.push_back(integrator_state("path 1", IntegratorKind::path, 1, 3));
+    states.push_back(integrator_state("path 2", IntegratorKind::path, 2, 3));
+    states.push_back(integrator_state("path without end", IntegratorKind::path, -1, 3));
+    states.push_back(integrator_state("path 1 without next event", IntegratorKind::path, 1, 2));
+    states.push_back(integrator_state("direct", IntegratorKind::direct, 2, 3));
+    states.push_back(integrator_state("direct, emitters", IntegratorKind::direct, 2, 1));
+    states.push_back(integrator_state("direct, BSDFs", IntegratorKind::direct, 2, 2));
+    states.push_back(integrator_state("aov alone", IntegratorKind::aov, 1, 3));
+    return states;
+}
+
+} // namespace parhelion::test
