@@ -1,5 +1,6 @@
-// Every AOV of every kind of shape against its definition: rays are those of the camera, what they
-// meet is worked out here, in double, from Mitsuba's documentation of shapes and of `aov`.
+// Every AOV of the list, in both precisions, where two of every shape stand: rays are those of the
+// camera, what they meet is worked out here, in double, from Mitsuba's documentation of shapes and
+// of `aov`. An AOV without a truth here does not compile.
 #include "host/oracle/sample_trace.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/host_render.h"
@@ -167,7 +168,7 @@ Ray ray_of(const Scene& scene, const DeviceScene& flat, int x, int y) {
 
 } // namespace
 
-TEST_CASE("AOVs are what their names say", "[aov]") {
+TEST_CASE("Every AOV of the list is what its name says", "[aov]") {
     Scene scene = shapes_in_a_row();
     DeviceScene flat = make_device_scene(scene);
     std::array<int, 7> met{};
