@@ -6,6 +6,7 @@
 #include "tests/support/traversal.h"
 
 #include "host/stress/shapes.h"
+#include "tests/support/skip.h"
 
 #include <glm/geometric.hpp>
 
@@ -108,7 +109,7 @@ TEST_CASE(
     "Seed item e: the normals view of the bunny equals normals interpolated at the host's own hits",
     "[device][seed]") {
     if (!std::filesystem::exists("/usr/share/glmark2/models/bunny.obj")) {
-        WARN("skipped: no bunny (Debian package glmark2-data)");
+        test::skip("no bunny (Debian package glmark2-data)");
         return;
     }
     LoadOptions load;

@@ -3,6 +3,7 @@
 #include "host/image/comparison.h"
 #include "host/image/exr.h"
 #include "tests/support/render_scene.h"
+#include "tests/support/skip.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -71,7 +72,7 @@ TEST_CASE(
     const char* data = std::getenv("PARHELION_DATA");
     fs::path folder = data ? fs::path(data) / "mitsuba-tests/tests/scenes" : "";
     if (!data || !fs::is_directory(folder)) {
-        WARN("skipped: PARHELION_DATA has no mitsuba-tests");
+        test::skip("PARHELION_DATA has no mitsuba-tests");
         return;
     }
     int rendered = 0;

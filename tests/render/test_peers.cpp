@@ -2,6 +2,7 @@
 // double-precision truth.
 #include "host/image/exr.h"
 #include "tests/support/render_scene.h"
+#include "tests/support/skip.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ std::filesystem::path references() {
     std::filesystem::path folder =
         data ? std::filesystem::path(data).parent_path() / "peers/references" : "";
     if (data && std::filesystem::is_directory(folder)) return folder;
-    WARN("skipped: no peers/references beside PARHELION_DATA");
+    test::skip("no peers/references beside PARHELION_DATA");
     return {};
 }
 
@@ -73,7 +74,7 @@ TEST_CASE("peers: channel means agree with Cycles on the four scenes") {
     for (const Case& c : cases) {
         if (c.scene.starts_with("bunny") &&
             !std::filesystem::exists("/usr/share/glmark2/models/bunny.obj")) {
-            WARN("skipped " << c.scene << ": package glmark2-data is not installed");
+            test::skip(std::string(c.scene) + ": package glmark2-data is not installed");
             continue;
         }
         std::array<double, 3> theirs = reference_mean(folder, c.reference);

@@ -3,6 +3,7 @@
 
 #include "host/error.h"
 #include "host/image/image.h"
+#include "tests/support/skip.h"
 
 #include <catch2/catch.hpp>
 
@@ -60,12 +61,12 @@ inline void write_bytes(const std::string& file, const std::vector<char>& bytes)
 inline std::string data_folder(const std::string& below) {
     const char* root = std::getenv("PARHELION_DATA");
     if (!root || !*root) {
-        WARN("skipped: PARHELION_DATA is not set");
+        parhelion::test::skip("PARHELION_DATA is not set");
         return "";
     }
     const fs::path folder = fs::path(root) / below;
     if (!fs::is_directory(folder)) {
-        WARN("skipped: no folder " << folder);
+        parhelion::test::skip("no folder " + folder.string());
         return "";
     }
     return folder.string();

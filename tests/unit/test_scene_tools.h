@@ -2,13 +2,13 @@
 #pragma once
 
 #include "host/scene/load.h"
+#include "tests/support/skip.h"
 
 #include <catch2/catch.hpp>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <string>
 
 #include <unistd.h>
@@ -73,11 +73,11 @@ inline std::string refusal_of_body(const std::string& body) {
     return refusal_of_text(scene_text(body));
 }
 
-/// The folder of shared test data, or "" (and a line saying so) where it is absent.
+/// The folder of shared test data, or "" where it is absent, and what needs it is skipped.
 inline std::string shared_data() {
     const char* const folder = std::getenv("PARHELION_DATA");
     if (folder && std::filesystem::is_directory(folder)) return folder;
-    std::cout << "skipped: PARHELION_DATA names no folder with the shared test data\n";
+    skip("PARHELION_DATA names no folder with the shared test data");
     return "";
 }
 
