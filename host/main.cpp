@@ -1,10 +1,5 @@
 // The program: its subcommands, and errors turned into one line and an exit code.
-#include "host/commands/compare.h"
-#include "host/commands/compile.h"
-#include "host/commands/devices.h"
-#include "host/commands/info.h"
-#include "host/commands/render.h"
-#include "host/commands/stress.h"
+#include "host/commands/subcommands.h"
 #include "host/commands/version.h"
 #include "host/error.h"
 
@@ -31,8 +26,7 @@ CommandLine command_line() {
             "4 internal failure.\n"
             "Each subcommand has its own --help with examples.",
         .version = version_text,
-        .subcommands = {render_subcommand(), compare_subcommand(), info_subcommand(),
-                        compile_subcommand(), devices_subcommand(), stress_subcommand()},
+        .subcommands = all_subcommands(),
     };
 }
 

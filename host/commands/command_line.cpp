@@ -1,29 +1,67 @@
 // The command line, through CLI11.
 #include "host/commands/command_line.h"
 
+#include "host/commands/nearest_name.h"
+#include "host/commands/option_number.h"
 #include "host/error.h"
+#include "host/scene/text.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 namespace parhelion {
 namespace {
 
 template<class T>
-CLI::Option* add_value(CLI::App& app, const Option& option, T& target) {
-    CLI::Option* added = app.add_option(option.names, target, option.help);
-    if constexpr (std::is_same_v<T, std::vector<std::string>>) {
-        // Without this a list would swallow the arguments behind it.
-        added->allow_extra_args(false);
-        if (option.rules.delimiter != 0) added->delimiter(option.rules.delimiter);
-    } else if constexpr (std::is_arithmetic_v<T>) {
-        added->capture_default_str();
-    } else if constexpr (std::is_same_v<T, std::string>) {
-        if (!target.empty()) added->capture_default_str();
-    }
+struct NumberOf {
+    using Type = T;
+};
+template<class T>
+struct NumberOf<std::optional<T>> {
+    using Type = T;
+};
+template<class T>
+using Number = typename NumberOf<T>::Type;
+
+std::string help_text(const Option& option) {
+    const std::optional<Domain>& domain = option.rules.domain;
+    return domain ? fmt::format("{} ({})", option.help, accepted_text(*domain)) : option.help;
+}
+
+/// The library would read some texts that are no numbers, and says of none what is accepted.
+template<class T>
+CLI::Option* add_number(CLI::App& app, const Option& option, T& target) {
+    CLI::Option* added = app.add_option_function<std::string>(
+        option.names,
+        [&option, &target](const std::string& text) {
+            target = static_cast<Number<T>>(option_number(option, text));
+        },
+        help_text(option));
+    added->type_name(option.rules.domain->whole ? "INT" : "FLOAT");
+    if constexpr (std::is_arithmetic_v<T>) added->default_str(fmt::format("{}", target));
     return added;
+}
+
+template<class T>
+CLI::Option* add_value(CLI::App& app, const Option& option, T& target) {
+    if constexpr (std::is_arithmetic_v<Number<T>>) {
+        return add_number(app, option, target);
+    } else {
+        CLI::Option* added = app.add_option(option.names, target, help_text(option));
+        if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+            // Without this a list would swallow the arguments behind it.
+            added->allow_extra_args(false);
+            if (option.rules.delimiter != 0) added->delimiter(option.rules.delimiter);
+        } else if constexpr (std::is_same_v<T, std::string>) {
+            if (!target.empty()) added->capture_default_str();
+        }
+        return added;
+    }
 }
 
 /// A flag that is given a value is refused: the library reads some numbers and the start of others.
@@ -56,14 +94,46 @@ void add_subcommand(CLI::App& app, const Subcommand& subcommand, int& exit_code)
     sub->callback([&subcommand, &exit_code] { exit_code = subcommand.run(); });
 }
 
+/// All names of the options of a subcommand, with dashes.
+std::vector<std::string> option_names(const Subcommand& subcommand) {
+    std::vector<std::string> names;
+    for (const Option& option : subcommand.options)
+        for (const std::string_view name : split(option.names, "!,"))
+            if (name.starts_with("-")) names.emplace_back(name);
+    return names;
+}
+
+/// Of arguments that nothing takes, in their order; the library tells them backwards.
+std::string unknown_arguments(const Subcommand& subcommand, const std::vector<std::string>& left) {
+    std::string message = fmt::format("command line: {} does not take {}", subcommand.name,
+                                      in_quotes(fmt::format("{}", fmt::join(left, " "))));
+    for (const std::string& argument : left) {
+        if (!argument.starts_with("-")) continue;
+        const std::string name = argument.substr(0, argument.find('='));
+        const std::string nearest = nearest_name(name, option_names(subcommand));
+        if (!nearest.empty()) return fmt::format("{}; did you mean {}?", message, nearest);
+        break;
+    }
+    return fmt::format("{} (parhelion {} --help lists what it does)", message, subcommand.name);
+}
+
 } // namespace
 
 struct CommandLineReader::App : CLI::App {
     using CLI::App::App;
 };
 
+bool takes_number(const Option& option) {
+    return std::visit(
+        [](const auto* target) {
+            using Type = Number<std::decay_t<decltype(*target)>>;
+            return std::is_arithmetic_v<Type> && !std::is_same_v<Type, bool>;
+        },
+        option.target);
+}
+
 CommandLineReader::CommandLineReader(const CommandLine& command_line)
-    : app_(std::make_unique<App>(command_line.summary, "parhelion")) {
+    : command_line_(command_line), app_(std::make_unique<App>(command_line.summary, "parhelion")) {
     app_->require_subcommand(1);
     app_->set_version_flag("--version", command_line.version);
     app_->footer(command_line.footer);
@@ -78,6 +148,12 @@ int CommandLineReader::run(std::vector<std::string> arguments) {
     std::reverse(arguments.begin(), arguments.end()); // as CLI::App::parse wants them
     try {
         app_->parse(arguments);
+    } catch (const CLI::ExtrasError& e) {
+        const auto chosen = app_->get_subcommands();
+        for (const Subcommand& subcommand : command_line_.subcommands)
+            if (!chosen.empty() && chosen.front()->get_name() == subcommand.name)
+                throw InputError(unknown_arguments(subcommand, arguments));
+        throw InputError(e.what());
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() == 0) return app_->exit(e); // help or version
         throw InputError(e.what());

@@ -3,6 +3,8 @@
 // The only file that knows the parsing library is command_line.cpp.
 #pragma once
 
+#include "host/domain.h"
+
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -24,6 +26,8 @@ struct OptionRules {
     char delimiter = 0;               ///< between the values of a list; 0: one value an occurrence
     std::string group{};              ///< heading in the help; empty: the usual one
     bool of_samples = false;          ///< has a say in what a sample of a pixel is
+    /// Where its number may lie, or each of the numbers in its text; absent: a text without.
+    std::optional<Domain> domain{};
 };
 
 /// One row of a subcommand's table.
@@ -64,9 +68,13 @@ public:
 
 private:
     struct App; // the library's
+    const CommandLine& command_line_;
     std::unique_ptr<App> app_;
     int exit_code_ = 0;
 };
+
+/// Whether the option takes one number, and not a flag or a text.
+bool takes_number(const Option& option);
 
 /// Reads one command line and runs it.
 int run_command_line(const CommandLine& command_line, std::vector<std::string> arguments);

@@ -1,17 +1,12 @@
 // Options as a shell would be given them again.
 #include "host/commands/command_text.h"
 
+#include "host/commands/option_number.h"
+
 #include <fmt/format.h>
 
 namespace parhelion {
 namespace {
-
-/// The last of its names, without what says that a flag clears.
-std::string name_of(const Option& option) {
-    std::size_t last = option.names.rfind(',');
-    std::string name = option.names.substr(last == std::string::npos ? 0 : last + 1);
-    return name.substr(name.find('-'));
-}
 
 std::string text_of(const std::string& value) { return quoted_for_shell(value); }
 template<class Number>
@@ -26,22 +21,22 @@ std::string given(const Option&, const T&) {
 
 template<class T>
 std::string given(const Option& option, const std::optional<T>& value) {
-    return value ? fmt::format(" {} {}", name_of(option), text_of(*value)) : "";
+    return value ? fmt::format(" {} {}", option_name(option), text_of(*value)) : "";
 }
 
 std::string given(const Option& option, const bool& value) {
     bool clears = option.names[0] == '!';
-    return value != clears ? " " + name_of(option) : "";
+    return value != clears ? " " + option_name(option) : "";
 }
 
 std::string given(const Option& option, const std::vector<std::string>& values) {
     std::string text;
     if (option.rules.delimiter == 0)
         for (const std::string& value : values)
-            text += fmt::format(" {} {}", name_of(option), quoted_for_shell(value));
+            text += fmt::format(" {} {}", option_name(option), quoted_for_shell(value));
     else if (!values.empty())
         text = fmt::format(
-            " {} {}", name_of(option),
+            " {} {}", option_name(option),
             quoted_for_shell(fmt::format(
                 "{}", fmt::join(values, std::string_view(&option.rules.delimiter, 1)))));
     return text;

@@ -67,12 +67,8 @@ bool all_pass(const Comparison& comparison, const std::vector<Judgement>& judgem
 
 // ---- options
 
-void check(bool good, const std::string& option, const std::string& accepted) {
-    if (!good) throw InputError("command line: " + option + " must be " + accepted);
-}
-
-bool positive(double value) { return std::isfinite(value) && value > 0.0; }
-bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
+/// Samples of a pixel may be no whole number: a filter weighs them.
+constexpr Domain samples_domain = greater_than(0);
 
 /// Own variances come with their samples; those of a file do not.
 void check_variance(const CompareOptions& options) {
@@ -88,7 +84,8 @@ std::vector<Option> limit_options(CompareOptions& c) {
     std::vector<Option> options;
     options.reserve(limit_kinds.size());
     for (const LimitKind& kind : limit_kinds)
-        options.push_back({std::string("--") + kind.name, &(c.*kind.limit), kind.help});
+        options.push_back(
+            {std::string("--") + kind.name, &(c.*kind.limit), kind.help, {.domain = at_least(0)}});
     return options;
 }
 
@@ -97,19 +94,22 @@ std::vector<Option> z_test_options(CompareOptions& c) {
         {"--variance", &c.variance,
          "EXR with the variance of one sample of each pixel (with --spp), or `own`, the layers "
          "variance and samples of A, and of B if it has them: z-tests of the pixels and the mean"},
-        {"--spp", &c.samples, "Samples per pixel of A", {.needs = {"--variance"}}},
+        {"--spp",
+         &c.samples,
+         "Samples per pixel of A",
+         {.needs = {"--variance"}, .domain = samples_domain}},
         {"--reference-spp",
          &c.test.reference_samples,
          "Samples per pixel of B (default: B is exact)",
-         {.needs = {"--variance"}}},
+         {.needs = {"--variance"}, .domain = samples_domain}},
         {"--alpha",
          &c.test.alpha,
          "Chance to fail an image that is right, for each of the two z-tests",
-         {.needs = {"--variance"}}},
+         {.needs = {"--variance"}, .domain = strictly_between(0, 1)}},
         {"--variance-floor",
          &c.test.variance_floor,
          "Least variance in the z-test of the pixels",
-         {.needs = {"--variance"}}},
+         {.needs = {"--variance"}, .domain = at_least(0)}},
         {"--xyz-statistics",
          &c.xyz_statistics,
          "B and the variance hold XYZ statistics as RGB (Mitsuba's test references): test in XYZ",
@@ -125,28 +125,21 @@ std::vector<Option> compare_options(CompareOptions& c) {
         {"B", &c.reference, "Reference (.exr)", {.required = true}},
         {"--json", &c.json, "Report as one JSON object"},
         {"--layer", &c.figures.layer, "Compare the channels NAME.* instead of the main layer"},
-        {"--epsilon", &c.figures.epsilon, "relMSE is the mean of (A - B)^2 / (B^2 + epsilon)"},
-        {"--ppd", &c.figures.pixels_per_degree, "FLIP's pixels per degree"}};
+        {"--epsilon",
+         &c.figures.epsilon,
+         "relMSE is the mean of (A - B)^2 / (B^2 + epsilon)",
+         {.domain = at_least(0)}},
+        // Larger ones only make filters that no image is large enough for.
+        {"--ppd",
+         &c.figures.pixels_per_degree,
+         "FLIP's pixels per degree",
+         {.domain = greater_up_to(0, 10000)}}};
     for (const std::vector<Option>& more : {limit_options(c), z_test_options(c)})
         options.insert(options.end(), more.begin(), more.end());
     return options;
 }
 
-void check_options(const CompareOptions& options) {
-    check_variance(options);
-    for (const LimitKind& kind : limit_kinds)
-        if (const std::optional<double>& limit = options.*kind.limit)
-            check(not_negative(*limit), std::string("--") + kind.name, "a number, 0 or more");
-    check(not_negative(options.figures.epsilon), "--epsilon", "a number, 0 or more");
-    check(positive(options.figures.pixels_per_degree), "--ppd", "a number above 0");
-    // Larger ones only make filters that no image is large enough for.
-    check(options.figures.pixels_per_degree <= 10000.0, "--ppd", "at most 10000");
-    check(positive(options.samples.value_or(1.0)), "--spp", "a number above 0");
-    check(positive(options.test.reference_samples.value_or(1.0)), "--reference-spp",
-          "a number above 0");
-    check(options.test.alpha > 0.0 && options.test.alpha < 1.0, "--alpha", "between 0 and 1");
-    check(not_negative(options.test.variance_floor), "--variance-floor", "a number, 0 or more");
-}
+void check_options(const CompareOptions& options) { check_variance(options); }
 
 int run_compare(const CompareOptions& options, std::ostream& out) {
     check_options(options);

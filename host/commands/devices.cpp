@@ -2,6 +2,7 @@
 #include "host/commands/devices.h"
 
 #include "host/cl/self_test.h"
+#include "host/cl/work_groups.h"
 #include "host/error.h"
 
 #include <fmt/format.h>
@@ -33,6 +34,7 @@ nlohmann::json to_json(const Tested& t) {
             {"float_width", d.float_width},
             {"lanes", d.lanes()},
             {"fp64", d.fp64},
+            {"largest_work_group", largest_work_group(d)},
             {"self_test", t.failure.empty() ? "passed" : t.failure}};
 }
 

@@ -1,6 +1,7 @@
 // Command-line values that replace the scene's.
 #include "host/commands/render.h"
 #include "host/render/filter_table.h"
+#include "host/scene/limits.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +12,6 @@
 
 namespace parhelion {
 namespace {
-
-constexpr int largest_side = 65536;
 
 constexpr std::array<std::pair<std::string_view, IntegratorKind>, 5> integrators{
     {{"path", IntegratorKind::path},
@@ -50,9 +49,10 @@ std::array<int, N> parse_integers(std::string_view option, std::string_view text
 void set_size(const std::string& text, Film& film) {
     auto [width, height] =
         parse_integers<2>("--size", text, 'x', "WIDTHxHEIGHT in pixels, e.g. 640x480");
-    if (width < 1 || height < 1 || width > largest_side || height > largest_side)
-        throw InputError(
-            fmt::format("--size '{}': each side is 1 to {} pixels", text, largest_side));
+    if (!placed(film_side_domain, width) || !placed(film_side_domain, height) ||
+        std::int64_t{width} * height > most_film_pixels)
+        throw InputError(fmt::format("--size '{}': each side is {}, and both make {} at most", text,
+                                     accepted_text(film_side_domain), most_film_pixels));
     film.width = width, film.height = height;
     film.crop_x = film.crop_y = film.crop_width = film.crop_height = 0;
 }
@@ -85,12 +85,6 @@ AovRequest aov_request(const std::string& name) {
     return {name, name == "normals" ? "sh_normal" : name, {"--aov", 0}};
 }
 
-int at_least(std::string_view option, int value, int least) {
-    if (value < least)
-        throw InputError(fmt::format("{} {}: must be at least {}", option, value, least));
-    return value;
-}
-
 } // namespace
 
 void leave_out_energy_compensation(Scene& scene) {
@@ -113,10 +107,9 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (command.sampler) scene.sampler.pattern = named("--sampler", *command.sampler, patterns);
     if (command.filter_method)
         film.filter_method = named("--filter-by", *command.filter_method, filter_methods);
-    if (command.samples) scene.sampler.samples_per_pixel = at_least("--spp", *command.samples, 1);
-    if (command.max_depth)
-        scene.integrator.max_depth = at_least("--max-depth", *command.max_depth, -1);
-    if (command.rr_depth) scene.integrator.rr_depth = at_least("--rr-depth", *command.rr_depth, 1);
+    if (command.samples) scene.sampler.samples_per_pixel = *command.samples;
+    if (command.max_depth) scene.integrator.max_depth = *command.max_depth;
+    if (command.rr_depth) scene.integrator.rr_depth = *command.rr_depth;
     if (command.seed) scene.sampler.seed = *command.seed;
     if (!command.next_event) scene.integrator.emitter_samples = false;
     if (command.shading_normals)

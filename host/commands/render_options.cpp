@@ -1,5 +1,6 @@
 // The options of `parhelion render`, and what they cannot be whatever the scene.
 #include "host/commands/render.h"
+#include "host/commands/render_domains.h"
 #include "host/error.h"
 #include "host/image/output.h"
 
@@ -20,9 +21,9 @@ std::vector<Option> of_samples(std::vector<Option> options) {
 
 std::vector<Option> sampling_options(RenderCommand& c) {
     return of_samples({
-        {"--spp", &c.samples, "Samples per pixel"},
-        {"--size", &c.size, "Film size, WIDTHxHEIGHT"},
-        {"--seed", &c.seed, "Seed of the random numbers"},
+        {"--spp", &c.samples, "Samples per pixel", {.domain = samples_per_pixel_domain}},
+        {"--size", &c.size, "Film size, WIDTHxHEIGHT", {.domain = film_side_domain}},
+        {"--seed", &c.seed, "Seed of the random numbers", {.domain = seed_domain}},
     });
 }
 
@@ -30,8 +31,8 @@ std::vector<Option> image_options(RenderCommand& c) {
     return {
         {"scene", &c.scene_file, "Scene file (Mitsuba 3 XML)", {.required = true}},
         {"-o,--output", &c.output, "Image to write, .exr or .png"},
-        {"--crop", &c.crop, "Part of the film, X,Y,WIDTH,HEIGHT"},
-        {"--exposure", &c.exposure, "Stops of exposure for .png"},
+        {"--crop", &c.crop, "Part of the film, X,Y,WIDTH,HEIGHT", {.domain = crop_domain}},
+        {"--exposure", &c.exposure, "Stops of exposure for .png", {.domain = exposure_domain}},
         {"--stats", &c.stats_file, "Write times, counts and memory as JSON"},
         {"--force", &c.force, "Overwrite files that exist"},
         {"--strict", &c.strict,
@@ -39,16 +40,21 @@ std::vector<Option> image_options(RenderCommand& c) {
         {"--precision", &c.precision,
          "single, on the device (the default); double, the same kernels on the host: slow, to see "
          "what rounding does"},
-        {"--threads", &c.threads, "CPU threads, 0 for all"},
+        {"--threads", &c.threads, "CPU threads, 0 for all", {.domain = threads_domain}},
     };
 }
 
 std::vector<Option> light_options(RenderCommand& c) {
     return of_samples({
         {"--integrator", &c.integrator, "path, direct, normals, depth or aov"},
-        {"--max-depth", &c.max_depth,
-         "Longest path in edges: 1 emitters only, 2 direct light, -1 no limit"},
-        {"--rr-depth", &c.rr_depth, "Russian roulette from this many vertices on"},
+        {"--max-depth",
+         &c.max_depth,
+         "Longest path in edges: 1 emitters only, 2 direct light, -1 no limit",
+         {.domain = max_depth_domain}},
+        {"--rr-depth",
+         &c.rr_depth,
+         "Russian roulette from this many vertices on",
+         {.domain = rr_depth_domain}},
         {"!--no-next-event", &c.next_event, "Do not sample emitters"},
         {"--shading-normals", &c.shading_normals,
          "consistent (smooth meshes get no light from below their geometry, the default) or raw "
@@ -74,8 +80,14 @@ std::vector<Option> trace_options(RenderCommand& c) {
          &c.trace,
          "Tell one sample vertex by vertex, and render nothing",
          {.needs = {"--pixel", "--sample"}}},
-        {"--pixel", &c.pixel, "Its pixel, X,Y from the top left corner", {.needs = {"--trace"}}},
-        {"--sample", &c.sample, "Its number, from 0", {.needs = {"--trace"}}},
+        {"--pixel",
+         &c.pixel,
+         "Its pixel, X,Y from the top left corner",
+         {.needs = {"--trace"}, .domain = pixel_domain}},
+        {"--sample",
+         &c.sample,
+         "Its number, from 0",
+         {.needs = {"--trace"}, .domain = sample_domain}},
         {"--json", &c.json_file, "Tell it as JSON, into this file", {.needs = {"--trace"}}},
     };
     for (Option& option : options)
@@ -91,18 +103,31 @@ std::vector<Option> of_split(std::vector<Option> options) {
 
 std::vector<Option> pool_options(RenderCommand& c) {
     return of_split({
-        {"--pool-paths", &c.options.split.pool_paths, "Paths in flight"},
-        {"--segment-paths", &c.options.split.segment_paths, "Paths a work-item owns"},
-        {"--streams", &c.options.split.streams,
-         "Waves under way at once, which share the pool; 0 for what suits the device"},
+        {"--pool-paths",
+         &c.options.split.pool_paths,
+         "Paths in flight",
+         {.domain = pool_paths_domain}},
+        {"--segment-paths",
+         &c.options.split.segment_paths,
+         "Paths a work-item owns",
+         {.domain = segment_paths_domain}},
+        {"--streams",
+         &c.options.split.streams,
+         "Waves under way at once, which share the pool; 0 for what suits the device",
+         {.domain = streams_domain}},
     });
 }
 
 std::vector<Option> program_options(RenderCommand& c) {
     return of_split({
-        {"--work-group-size", &c.options.split.work_group_size, "Work-items in a group"},
-        {"--lanes", &c.options.lanes,
-         "Values a kernel handles at once: 1, 8, 16; 0 for the device's"},
+        {"--work-group-size",
+         &c.options.split.work_group_size,
+         "Work-items in a group; a device may take fewer",
+         {.domain = work_group_domain}},
+        {"--lanes",
+         &c.options.lanes,
+         "Values a kernel handles at once; 0 for the device's",
+         {.domain = lanes_domain}},
         {"--portable", &c.options.portable, "Kernels without x86 intrinsics"},
         {"--all-features", &c.options.all_features, "Kernels not specialised to the scene"},
     });
@@ -120,17 +145,8 @@ std::vector<Option> kernel_options(RenderCommand& c) {
 }
 
 void check_split(const RenderOptions& options) {
-    if (options.split.pool_paths < BLOCK_PIXELS || options.split.segment_paths < 1 ||
-        options.split.work_group_size < 1)
-        throw InputError(fmt::format(
-            "--pool-paths must be at least {}, --segment-paths and --work-group-size at least 1",
-            BLOCK_PIXELS));
-    int lanes = options.lanes;
-    if (lanes != 0 && lanes != 1 && lanes != 8 && lanes != 16)
-        throw InputError(
-            fmt::format("--lanes {}: there are 1, 8 and 16 (0: what suits the device)", lanes));
     int most_streams = options.split.pool_paths / BLOCK_PIXELS;
-    if (options.split.streams < 0 || options.split.streams > most_streams)
+    if (options.split.streams > most_streams)
         throw InputError(fmt::format("--streams {}: there may be 1 to {}, each with at least {} of "
                                      "the pool's paths (0: what suits the device)",
                                      options.split.streams, most_streams, BLOCK_PIXELS));
@@ -158,8 +174,6 @@ void check_command(const RenderCommand& command) {
         throw InputError("--exposure: is for .png previews; an .exr holds linear values");
     check_split(command.options);
     in_double(command);
-    if (command.threads < 0)
-        throw InputError(fmt::format("--threads {}: must be 0 (all) or more", command.threads));
 }
 
 } // namespace parhelion

@@ -6,6 +6,7 @@
 #include "host/error.h"
 #include "host/image/output.h"
 #include "host/render/render_device.h"
+#include "host/scene/limits.h"
 #include "host/stress/catalogue.h"
 #include "host/stress/report.h"
 
@@ -115,7 +116,7 @@ Subcommand stress_subcommand() {
                     {"--list", &c->list, "Show the rows and end"},
                     {"--report", &c->report_folder, "Folder for a page with tables and plots"},
                     {"--json", &c->json_file, "File for all figures"},
-                    {"--seed", &c->seed, "Of the random inputs"},
+                    {"--seed", &c->seed, "Of the random inputs", {.domain = seed_domain}},
                     {"--device", &c->device, "Index, or part of a name (see `parhelion devices`)"},
                     {"--force", &c->force, "Replace existing files"},
                     {"-q,--quiet", &c->quiet, "No progress"}},

@@ -1,6 +1,10 @@
 // The camera as the device reads it.
 #include "host/render/camera_record.h"
 
+#include "host/error.h"
+
+#include <fmt/format.h>
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -15,6 +19,16 @@ struct Point {
 
 Point to_float(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// In the unit that the scene is rendered in, both must be numbers of single precision.
+void check_lens(double radius, double focus) {
+    constexpr double least = 1e-30, most = 1e30;
+    if (radius <= most && (radius == 0.0 || focus >= least)) return;
+    throw InputError(fmt::format("sensor plugin \"thinlens\": aperture_radius is {:.1e} and "
+                                 "focus_distance {:.1e} in the unit that the scene is rendered in "
+                                 "(accepted: up to {:.0e}, {:.0e} or greater)",
+                                 radius, focus, most, least));
 }
 
 } // namespace
@@ -42,6 +56,8 @@ CameraRecord camera_record(const Camera& camera, int width, int height, const Sc
     glm::dvec3 step_x = -left * pixel, step_y = -up * pixel;
     glm::dvec2 centre = (0.5 - camera.principal_point_offset) * glm::dvec2(width, height);
     double lens = camera.aperture_radius * frame.scale;
+    double focus = camera.focus_distance * frame.scale;
+    check_lens(lens, focus);
     Point o = to_float(frame.point(glm::dvec3(camera.to_world[3])));
     Point d = to_float(forward - centre.x * step_x - centre.y * step_y);
     Point u = to_float(step_x), v = to_float(step_y);
@@ -66,7 +82,7 @@ CameraRecord camera_record(const Camera& camera, int width, int height, const Sc
             m.z,
             static_cast<float>(camera.near_clip * frame.scale),
             static_cast<float>(camera.far_clip * frame.scale),
-            static_cast<float>(camera.focus_distance * frame.scale)};
+            static_cast<float>(focus)};
 }
 
 } // namespace parhelion

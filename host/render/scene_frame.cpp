@@ -92,7 +92,11 @@ SceneFrame scene_frame(const Scene& scene) {
                                    shape.geometry));
     if (box.low.x > box.high.x) return frame;
     frame.shift = glm::clamp(glm::dvec3(0.0), box.low, box.high);
-    frame.scale = scale_for(box.high - box.low, scene.file);
+    // Seen from so far away that nobody can see it, the scene is a point: in a unit of its own size
+    // the camera's place would be no number in single precision.
+    constexpr double furthest = 0x1p-60;
+    frame.scale =
+        scale_for(glm::max(box.high - box.low, glm::abs(frame.shift) * furthest), scene.file);
     return frame;
 }
 

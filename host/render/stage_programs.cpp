@@ -2,7 +2,9 @@
 #include "host/render/stage_programs.h"
 
 #include "host/cl/buffer.h"
+#include "host/cl/work_groups.h"
 #include "host/clock.h"
+#include "host/error.h"
 #include "host/render/kernel_arguments.h"
 
 #include <sys/types.h> // ulong, as the kernels call it
@@ -56,6 +58,12 @@ struct Compiled {
     std::uint64_t beside_peak_bytes = 0;
 };
 
+void check_work_group(std::size_t most, int work_group_size, const std::string& taker) {
+    if (static_cast<std::size_t>(work_group_size) > most)
+        throw InputError(fmt::format("--work-group-size {}: {} takes groups of 1 to {}",
+                                     work_group_size, taker, most));
+}
+
 /// Some drivers finish compiling a kernel at its first launch (PoCL: for that size of work-group):
 /// a launch without paths belongs to compiling.
 void launch_empty(const RenderDevice& d, const Wanted& w, const Program& program,
@@ -66,6 +74,8 @@ void launch_empty(const RenderDevice& d, const Wanted& w, const Program& program
     for (std::size_t stage = 0; stage < stage_count; stage++) {
         if (stage_groups[stage] != w.group) continue;
         cl::Kernel kernel = program.kernel(stage_names[stage]);
+        check_work_group(kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(d.device.handle),
+                         work_group_size, fmt::format("kernel {}", stage_names[stage]));
         for (cl_uint i = 0; i < buffer_arguments; i++)
             kernel.setArg(i, zeros.handle());
         kernel.setArg(params_argument, RenderParams{});
@@ -119,6 +129,7 @@ StageReport stage_report(std::size_t stage, const StageOptions& options, const C
 } // namespace
 
 StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
+    check_work_group(largest_work_group(d.device), options.work_group_size, d.device.name);
     std::vector<Wanted> programs;
     programs.reserve(program_groups.size());
     for (ProgramGroup group : program_groups)
@@ -151,6 +162,7 @@ StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
 }
 
 bool compile_program(RenderDevice& d, ProgramGroup group, const StageOptions& options) {
+    check_work_group(largest_work_group(d.device), options.work_group_size, d.device.name);
     Wanted w = wanted(d, group, options);
     Compiled compiled = compile(d, w, options.work_group_size, std::nullopt);
     keep(d, w, compiled);

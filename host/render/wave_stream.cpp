@@ -1,9 +1,13 @@
 // A pool of paths with a queue of its own: launches the stages of one wave after the other.
 #include "host/render/wave_stream.h"
 
+#include "host/error.h"
 #include "host/render/kernel_arguments.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <limits>
 
 namespace parhelion {
 namespace {
@@ -44,6 +48,11 @@ WorkSizes work_sizes(const SampleWindow& window, int samples, int lanes, int fil
     s.segments =
         rounded_up((s.path_capacity + s.segment_size - 1) / s.segment_size, split.work_group_size);
     s.film_channels = film_channels;
+    if (s.state_stride() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        throw InputError(
+            fmt::format("{} segments of {} paths are more than the device counts (--pool-paths, "
+                        "--segment-paths, --work-group-size; accepted: 2^31 paths together)",
+                        s.segments, s.segment_size));
     return s;
 }
 

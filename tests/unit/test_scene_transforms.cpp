@@ -99,6 +99,31 @@ TEST_CASE("scene transforms: lookat as in Mitsuba") {
                  1e-7);
 }
 
+TEST_CASE("scene transforms: a last row that is rounding is that of an affine matrix") {
+    const std::string rows = "1 0 0 4 0 2 0 5 0 0 1e-6 6 ";
+    const auto refusal = [&](const std::string& last) {
+        return refusal_of_body(
+            "<shape type=\"disk\"><transform name=\"to_world\"><matrix value=\"" + rows + last +
+            "\"/></transform></shape>");
+    };
+    check_matrix("<matrix value=\"" + rows + "1e-17 0 0 1.0000000000000002\"/>",
+                 {1, 0, 0, 4, 0, 2, 0, 5, 0, 0, 1e-6, 6, 0, 0, 0, 1}, 0.0);
+    CHECK(refusal("9e-7 1.9e-6 9e-13 1.0000009").empty());
+    // Each column has a size of its own.
+    for (const char* last : {"1.1e-6 0 0 1", "0 2.1e-6 0 1", "0 0 1.1e-12 1", "0 0 0 1.0000011",
+                             "0 0 0 0.9999989", "-1.1e-6 0 0 1", "0 0 0 -1", "0 0 0 0"})
+        CHECK_THAT(refusal(last), Contains("last row"));
+}
+
+TEST_CASE("scene transforms: axes and directions of any length") {
+    const std::string turn = " angle=\"90\"/>";
+    for (const char* z : {"1e-320", "1e-200", "1e90"})
+        check_matrix("<rotate z=\"" + std::string(z) + "\"" + turn,
+                     {0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 1e-15);
+    check_matrix("<lookat origin=\"0 0 0\" target=\"0 0 1e-200\" up=\"0 1e-300 0\"/>",
+                 {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 1e-15);
+}
+
 TEST_CASE("scene transforms: refusals") {
     struct Case {
         std::string step, part;
@@ -120,7 +145,7 @@ TEST_CASE("scene transforms: refusals") {
         {"<translate w=\"1\"/>", "\"w\""},
         {"<translate x=\"1\"><scale/></translate>", "cannot stand inside"},
         {"<float name=\"a\" value=\"1\"/>", "translate, rotate, scale"},
-        {"<scale value=\"1e300\"/><scale value=\"1e300\"/>", "not finite"},
+        {"<scale value=\"1e300\"/><scale value=\"1e300\"/>", "-1e+100 to 1e+100"},
         {"<scale x=\"0\"/>", "without inverse"},
     };
     for (const Case& c : cases) {

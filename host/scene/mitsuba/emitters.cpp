@@ -2,6 +2,7 @@
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
+#include "host/scene/mitsuba/transforms.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -14,9 +15,6 @@ namespace parhelion::mitsuba {
 
 namespace {
 
-constexpr NumberRule half_angle{[](double v) { return v > 0.0 && v < 180.0; },
-                                "degrees greater than 0 and less than 180"};
-
 Rgb read_emission(Properties& p, const char* name) {
     return p.color(name, Rgb(1.0), SpectrumUse::emission);
 }
@@ -27,7 +25,7 @@ void refuse_together(Properties& p, const char* name) {
 }
 
 glm::dvec3 unit_direction(Properties& p, const char* name, const glm::dvec3& direction) {
-    const glm::dvec3 unit = glm::normalize(direction);
+    const glm::dvec3 unit = unit_vector(direction);
     if (!(glm::length(unit) > 0.5)) p.refuse_value(name, "without a direction", "not zero");
     return unit;
 }
@@ -54,8 +52,8 @@ void check_similarity(Properties& p, const glm::dmat4& to_world) {
 Emitter read_spot(Properties& p) {
     const glm::dmat4 to_world = p.transform("to_world");
     check_similarity(p, to_world);
-    const double cutoff = p.number("cutoff_angle", 20.0, half_angle);
-    const double beam = p.number("beam_width", cutoff * 3.0 / 4.0, non_negative);
+    const double cutoff = p.number("cutoff_angle", 20.0);
+    const double beam = p.number("beam_width", cutoff * 3.0 / 4.0);
     if (beam > cutoff) p.refuse_value("beam_width", std::to_string(beam), "up to cutoff_angle");
     return SpotEmitter{glm::dvec3(to_world[3]),
                        unit_direction(p, "to_world", glm::dvec3(to_world[2])), glm::radians(cutoff),
@@ -85,7 +83,7 @@ constexpr PluginTable<EmitterReader, 5> emitter_plugins = {{{"point", read_point
 
 /// How often Mitsuba picks this emitter; zero would mean that it picks none of its light.
 void read_sampling_weight(Properties& p) {
-    if (p.number("sampling_weight", 1.0, positive) != 1.0)
+    if (p.number("sampling_weight", 1.0) != 1.0)
         p.note("sampling_weight",
                "\"sampling_weight\" is not used, emitters are picked by power; only the noise "
                "differs");

@@ -1,4 +1,5 @@
 // The film plugin and the reconstruction filters.
+#include "host/scene/limits.h"
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
@@ -9,18 +10,15 @@ namespace parhelion::mitsuba {
 
 namespace {
 
-constexpr std::int64_t max_side = 65536;
-constexpr std::int64_t max_pixels = std::int64_t(1) << 28;
-
 void read_crop(Properties& p, Film& film) {
     const bool any = p.has("crop_offset_x") || p.has("crop_offset_y") || p.has("crop_width") ||
                      p.has("crop_height");
-    const auto read = [&](const char* name, int missing, int lowest) {
-        return static_cast<int>(p.integer(name, missing, lowest, max_side));
+    const auto read = [&](const char* name, int missing) {
+        return static_cast<int>(p.integer(name, missing));
     };
-    const int x = read("crop_offset_x", 0, 0), y = read("crop_offset_y", 0, 0);
-    const int width = read("crop_width", film.width, 1);
-    const int height = read("crop_height", film.height, 1);
+    const int x = read("crop_offset_x", 0), y = read("crop_offset_y", 0);
+    const int width = read("crop_width", film.width);
+    const int height = read("crop_height", film.height);
     if (!any) return;
     if (x + width > film.width || y + height > film.height)
         refuse(p.location(), fmt::format("{}: the crop window {}x{} at ({}, {}) leaves the film of "
@@ -47,11 +45,11 @@ void read_formats(Properties& p, Film& film) {
 
 Film read_hdr_film(Properties& p) {
     Film film;
-    film.width = static_cast<int>(p.integer("width", 768, 1, max_side));
-    film.height = static_cast<int>(p.integer("height", 576, 1, max_side));
-    if (std::int64_t(film.width) * film.height > max_pixels)
+    film.width = static_cast<int>(p.integer("width", 768));
+    film.height = static_cast<int>(p.integer("height", 576));
+    if (std::int64_t(film.width) * film.height > most_film_pixels)
         p.refuse_value("width", fmt::format("{} with a height of {}", film.width, film.height),
-                       fmt::format("{} pixels in all", max_pixels));
+                       fmt::format("{} pixels in all", most_film_pixels));
     read_crop(p, film);
     read_formats(p, film);
     film.sample_border = p.boolean("sample_border", false);
@@ -69,11 +67,11 @@ constexpr PluginTable<FilmReader, 1> film_plugins = {{{"hdrfilm", read_hdr_film}
 ReconstructionFilter read_box(Properties&) { return {.kind = FilterKind::box}; }
 
 ReconstructionFilter read_tent(Properties& p) {
-    return {.kind = FilterKind::tent, .radius = p.number("radius", 1.0, positive)};
+    return {.kind = FilterKind::tent, .radius = p.number("radius", 1.0)};
 }
 
 ReconstructionFilter read_gaussian(Properties& p) {
-    return {.kind = FilterKind::gaussian, .stddev = p.number("stddev", 0.5, positive)};
+    return {.kind = FilterKind::gaussian, .stddev = p.number("stddev", 0.5)};
 }
 
 ReconstructionFilter read_mitchell(Properties& p) {
@@ -85,8 +83,7 @@ ReconstructionFilter read_mitchell(Properties& p) {
 ReconstructionFilter read_catmull_rom(Properties&) { return {.kind = FilterKind::catmullrom}; }
 
 ReconstructionFilter read_lanczos(Properties& p) {
-    return {.kind = FilterKind::lanczos,
-            .lanczos_lobes = static_cast<int>(p.integer("lobes", 3, 1, 16))};
+    return {.kind = FilterKind::lanczos, .lanczos_lobes = static_cast<int>(p.integer("lobes", 3))};
 }
 
 using FilterReader = ReconstructionFilter (*)(Properties&);

@@ -9,8 +9,6 @@ namespace parhelion::mitsuba {
 
 namespace {
 
-constexpr std::int64_t max_int = std::numeric_limits<std::int32_t>::max();
-
 struct IntegratorInput {
     Properties& p;
     const Document& document;
@@ -22,18 +20,17 @@ void read_common(Properties& p, Integrator& integrator) {
     integrator.hide_emitters = p.boolean("hide_emitters", false);
     for (const char* const name : {"block_size", "samples_per_pass"})
         if (p.has(name)) {
-            p.integer(name, 0, 0, max_int);
+            p.integer(name, 0);
             p.note(name, in_quotes(name) + " does not change the picture and is not used");
         }
-    if (p.number("timeout", -1.0) > 0.0)
-        p.refuse_value("timeout", "set", "-1: pictures do not depend on the time they take");
+    p.number("timeout", -1.0);
 }
 
 Integrator read_path(const IntegratorInput& in) {
     Integrator integrator;
     integrator.kind = IntegratorKind::path;
-    integrator.max_depth = static_cast<int>(in.p.integer("max_depth", -1, -1, max_int));
-    integrator.rr_depth = static_cast<int>(in.p.integer("rr_depth", 5, 1, max_int));
+    integrator.max_depth = static_cast<int>(in.p.integer("max_depth", -1));
+    integrator.rr_depth = static_cast<int>(in.p.integer("rr_depth", 5));
     read_common(in.p, integrator);
     return integrator;
 }
@@ -47,9 +44,9 @@ Integrator read_direct(const IntegratorInput& in) {
         p.refuse_value("shading_samples",
                        "given together with \"emitter_samples\" or \"bsdf_samples\"",
                        "one or the other");
-    const std::int64_t both = p.integer("shading_samples", 1, 1, max_int);
-    const std::int64_t emitter = p.integer("emitter_samples", both, 0, max_int);
-    const std::int64_t bsdf = p.integer("bsdf_samples", both, 0, max_int);
+    const std::int64_t both = p.integer("shading_samples", 1);
+    const std::int64_t emitter = p.integer("emitter_samples", both);
+    const std::int64_t bsdf = p.integer("bsdf_samples", both);
     if (emitter + bsdf == 0)
         p.refuse_value("bsdf_samples", "0 like \"emitter_samples\"", "one of them above 0");
     integrator.emitter_samples = emitter > 0;

@@ -1,6 +1,7 @@
 // Typed access to the parameters of one plugin, refusing whatever its reader did not ask for.
 #include "host/scene/mitsuba/properties.h"
 
+#include "host/scene/mitsuba/number_parameters.h"
 #include "host/scene/text.h"
 
 #include <fmt/format.h>
@@ -73,34 +74,38 @@ const T* Properties::take_as(std::string_view name, const char* accepted) {
     return value;
 }
 
-double Properties::number(std::string_view name, double missing, const NumberRule& rule) {
+const Domain& Properties::domain(std::string_view name) const {
+    return number_parameter(object_.tag, object_.plugin, name).domain;
+}
+
+double Properties::checked(std::string_view name, double value) {
+    const std::optional<double> taken = placed(domain(name), value);
+    if (!taken) refuse_value(name, fmt::format("{}", value), accepted_text(domain(name)));
+    if (*taken != value)
+        note(name, fmt::format("{} is {} and taken as {}", in_quotes(name), value, *taken));
+    return *taken;
+}
+
+double Properties::number(std::string_view name, double missing) {
     const Parameter* const parameter = take(name);
     if (!parameter) return missing;
-    double value = 0.0;
-    if (const auto* real = std::get_if<double>(&parameter->value))
-        value = *real;
-    else if (const auto* whole = std::get_if<std::int64_t>(&parameter->value))
-        value = static_cast<double>(*whole);
-    else
-        refuse_value(name, "given as <" + parameter->tag + ">", "<float>");
-    if (!rule.accepts(value)) refuse_value(name, fmt::format("{}", value), rule.text);
-    return value;
+    if (const auto* real = std::get_if<double>(&parameter->value)) return checked(name, *real);
+    if (const auto* whole = std::get_if<std::int64_t>(&parameter->value))
+        return checked(name, static_cast<double>(*whole));
+    refuse_value(name, "given as <" + parameter->tag + ">", "<float>");
 }
 
-double Properties::required_number(std::string_view name, const NumberRule& rule) {
+double Properties::required_number(std::string_view name) {
     if (!has(name))
         refuse(location(), fmt::format("{} lacks its parameter {} (accepted: <float>, {})", title(),
-                                       in_quotes(name), rule.text));
-    return number(name, 0.0, rule);
+                                       in_quotes(name), accepted_text(domain(name))));
+    return number(name, 0.0);
 }
 
-std::int64_t Properties::integer(std::string_view name, std::int64_t missing, std::int64_t lowest,
-                                 std::int64_t highest) {
+std::int64_t Properties::integer(std::string_view name, std::int64_t missing) {
     const auto* const value = take_as<std::int64_t>(name, "<integer>");
     if (!value) return missing;
-    if (*value < lowest || *value > highest)
-        refuse_value(name, std::to_string(*value), fmt::format("{} to {}", lowest, highest));
-    return *value;
+    return static_cast<std::int64_t>(checked(name, static_cast<double>(*value)));
 }
 
 bool Properties::boolean(std::string_view name, bool missing) {
@@ -135,7 +140,8 @@ std::size_t Properties::choice(std::string_view name, std::string_view missing,
 
 glm::dvec3 Properties::vector(std::string_view name, const glm::dvec3& missing) {
     const auto* const value = take_as<glm::dvec3>(name, "<point>, <vector>");
-    return value ? *value : missing;
+    if (!value) return missing;
+    return {checked(name, value->x), checked(name, value->y), checked(name, value->z)};
 }
 
 glm::dmat4 Properties::transform(std::string_view name) {
@@ -146,21 +152,14 @@ glm::dmat4 Properties::transform(std::string_view name) {
 Rgb Properties::color(std::string_view name, const Rgb& missing, SpectrumUse use) {
     const Parameter* const parameter = take(name);
     if (!parameter) return missing;
-    const double top =
-        use == SpectrumUse::reflectance ? 1.0 : std::numeric_limits<double>::infinity();
-    const auto check = [&](double v) {
-        if (v < 0.0 || v > top)
-            refuse_value(name, fmt::format("{}", v), top == 1.0 ? "0 to 1" : "0 or greater");
-    };
-    if (const auto* rgb = std::get_if<RgbValue>(&parameter->value)) {
-        for (int i = 0; i < 3; ++i)
-            check(rgb->color[i]);
-        return rgb->color;
-    }
+    if (const auto* rgb = std::get_if<RgbValue>(&parameter->value))
+        return {checked(name, rgb->color.r), checked(name, rgb->color.g),
+                checked(name, rgb->color.b)};
     if (const auto* spectrum = std::get_if<SpectrumValue>(&parameter->value)) {
-        for (const double v : spectrum->values)
-            check(v);
-        const ConvertedSpectrum converted = to_rgb(*spectrum, use);
+        SpectrumValue inside = *spectrum;
+        for (double& v : inside.values)
+            v = checked(name, v);
+        const ConvertedSpectrum converted = to_rgb(inside, use);
         if (converted.clamped)
             note(name, fmt::format("{} lies outside the sRGB gamut and was moved to its border",
                                    in_quotes(name)));
@@ -169,9 +168,7 @@ Rgb Properties::color(std::string_view name, const Rgb& missing, SpectrumUse use
     if (!std::holds_alternative<double>(parameter->value) &&
         !std::holds_alternative<std::int64_t>(parameter->value))
         refuse_value(name, "given as <" + parameter->tag + ">", "<rgb>, <spectrum>, <float>");
-    const double value = number(name, 0.0);
-    check(value);
-    return Rgb(value);
+    return Rgb(number(name, 0.0));
 }
 
 std::vector<const Child*> Properties::children(std::string_view tag) {

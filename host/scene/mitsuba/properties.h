@@ -1,6 +1,7 @@
 // Typed access to the parameters of one plugin, refusing whatever its reader did not ask for.
 #pragma once
 
+#include "host/domain.h"
 #include "host/scene/mitsuba/document.h"
 
 #include <initializer_list>
@@ -11,18 +12,9 @@
 
 namespace parhelion::mitsuba {
 
-/// What a number may be, and how a message says it.
-struct NumberRule {
-    bool (*accepts)(double);
-    const char* text;
-};
-
-inline constexpr NumberRule any_number{[](double) { return true; }, "a number"};
-inline constexpr NumberRule positive{[](double v) { return v > 0.0; }, "greater than 0"};
-inline constexpr NumberRule non_negative{[](double v) { return v >= 0.0; }, "0 or greater"};
-
 /// Every query takes its parameter; `finish` refuses those that are left. All throw InputError with
-/// the parameter's own line.
+/// the parameter's own line. Numbers lie in the domain that number_parameters.h has for them, or
+/// are refused, or mapped with a note.
 class Properties {
 public:
     Properties(const Document& document, const Object& object, std::vector<std::string>& notes);
@@ -34,10 +26,11 @@ public:
     /// The line of a parameter that is there, else of the plugin.
     const SourceLocation& location_of(std::string_view name) const;
 
-    double number(std::string_view name, double missing, const NumberRule& rule = any_number);
-    double required_number(std::string_view name, const NumberRule& rule);
-    std::int64_t integer(std::string_view name, std::int64_t missing, std::int64_t lowest,
-                         std::int64_t highest);
+    double number(std::string_view name, double missing);
+    double required_number(std::string_view name);
+    std::int64_t integer(std::string_view name, std::int64_t missing);
+    /// A number found in a text.
+    double checked(std::string_view name, double value);
     bool boolean(std::string_view name, bool missing);
     std::string text(std::string_view name, std::string_view missing);
     std::string required_text(std::string_view name);
@@ -67,6 +60,7 @@ public:
 private:
     const Parameter* take(std::string_view name);
     const Parameter* find(std::string_view name) const;
+    const Domain& domain(std::string_view name) const;
     template<typename T>
     const T* take_as(std::string_view name, const char* accepted);
 

@@ -3,17 +3,18 @@
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
 
+#include <fmt/format.h>
+
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace parhelion::mitsuba {
 
 namespace {
-
-constexpr NumberRule field_of_view{[](double v) { return v > 0.0 && v < 180.0; },
-                                   "degrees greater than 0 and less than 180"};
 
 glm::dmat4 read_camera_to_world(Properties& p) {
     constexpr double tolerance = 1e-3; // as in Mitsuba
@@ -33,9 +34,8 @@ double read_focal_length(Properties& p) {
     const std::string written = text;
     if (text.ends_with("mm")) text.resize(text.size() - 2);
     const std::optional<double> length = parse_number(text);
-    if (!length || !(*length > 0.0))
-        p.refuse_value("focal_length", in_quotes(written), "millimetres such as \"50mm\"");
-    return *length;
+    if (!length) p.refuse_value("focal_length", in_quotes(written), "millimetres such as \"50mm\"");
+    return p.checked("focal_length", *length);
 }
 
 void read_field_of_view(Properties& p, Camera& camera) {
@@ -45,7 +45,7 @@ void read_field_of_view(Properties& p, Camera& camera) {
     }
     if (p.has("focal_length"))
         p.refuse_value("focal_length", "given together with \"fov\"", "one or the other");
-    camera.fov_degrees = p.number("fov", 0.0, field_of_view);
+    camera.fov_degrees = p.number("fov", 0.0);
     constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::diagonal, FovAxis::smaller,
                                 FovAxis::larger};
     camera.fov_axis = axes[p.choice("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"})];
@@ -55,12 +55,12 @@ Camera read_projective(Properties& p) {
     Camera camera;
     camera.to_world = read_camera_to_world(p);
     read_field_of_view(p, camera);
-    camera.near_clip = p.number("near_clip", 1e-2, positive);
-    camera.far_clip = p.number("far_clip", 1e4, positive);
+    camera.near_clip = p.number("near_clip", 1e-2);
+    camera.far_clip = p.number("far_clip", 1e4);
     if (!(camera.near_clip < camera.far_clip))
         p.refuse_value("near_clip", "not below \"far_clip\"", "less than far_clip");
     // Mitsuba keeps it for both cameras; a pinhole has no use for it.
-    camera.focus_distance = p.number("focus_distance", camera.far_clip, non_negative);
+    camera.focus_distance = p.number("focus_distance", camera.far_clip);
     // Nothing moves, so the shutter does not change the picture.
     const double open = p.number("shutter_open", 0.0);
     if (p.number("shutter_close", 0.0) < open)
@@ -77,8 +77,10 @@ Camera read_perspective(Properties& p) {
 
 Camera read_thin_lens(Properties& p) {
     Camera camera = read_projective(p);
-    camera.aperture_radius = p.required_number("aperture_radius", non_negative);
-    if (!(camera.focus_distance > 0.0)) p.refuse_value("focus_distance", "0", positive.text);
+    camera.aperture_radius = p.required_number("aperture_radius");
+    if (!(camera.focus_distance >= 1e-20))
+        p.refuse_value("focus_distance", fmt::format("{}", camera.focus_distance),
+                       "1e-20 or greater");
     return camera;
 }
 
@@ -96,7 +98,7 @@ void read_jitter(Properties& p) {
 
 void read_orthogonal(Properties& p) {
     read_jitter(p);
-    p.integer("strength", 2, 0, 64);
+    p.integer("strength", 2);
 }
 
 using SamplerReader = void (*)(Properties&);
@@ -117,16 +119,26 @@ Sampler read_sampler(const Document& document, const Object& object, Notes& note
     read(p);
     Sampler sampler;
     sampler.plugin = object.plugin;
-    sampler.samples_per_pixel = static_cast<int>(
-        p.integer("sample_count", default_samples, 1, std::numeric_limits<std::int32_t>::max()));
-    sampler.seed = static_cast<std::uint32_t>(
-        p.integer("seed", 0, 0, std::numeric_limits<std::uint32_t>::max()));
+    sampler.samples_per_pixel = static_cast<int>(p.integer("sample_count", default_samples));
+    sampler.seed = static_cast<std::uint32_t>(p.integer("seed", 0));
     if (object.plugin != "independent")
         p.note("", "sampler " + in_quotes(object.plugin) +
                        " does not choose the pattern of the samples, --sampler does; only the "
                        "noise differs");
     p.finish();
     return sampler;
+}
+
+/// A direction is rounded by 2^-24: pixels less than eight times that apart run together.
+void note_narrow_pixels(Properties& p, const Camera& camera, const Film& film) {
+    const double field = camera.fov_degrees ? glm::radians(*camera.fov_degrees)
+                                            : 2.0 * std::atan(18.0 / *camera.focal_length_mm);
+    const double pixel = field / std::max(film.width, film.height);
+    if (pixel < 8 * 0x1p-24)
+        p.note(camera.fov_degrees ? "fov" : "focal_length",
+               fmt::format("pixels are {:.1e} radians apart, which directions in single precision "
+                           "do not tell apart",
+                           pixel));
 }
 
 SensorParts read_sensor(const Document& document, const Object& object, Notes& notes) {
@@ -141,6 +153,7 @@ SensorParts read_sensor(const Document& document, const Object& object, Notes& n
     parts.sampler.samples_per_pixel = default_samples;
     if (film) parts.film = read_film(document, *film, notes);
     if (sampler) parts.sampler = read_sampler(document, *sampler, notes);
+    note_narrow_pixels(p, parts.camera, parts.film);
     return parts;
 }
 

@@ -17,8 +17,6 @@ namespace parhelion::mitsuba {
 
 namespace {
 
-constexpr std::int64_t max_index = std::numeric_limits<std::int32_t>::max();
-
 struct ShapeInput {
     Properties& p;
     const Document& document;
@@ -64,7 +62,7 @@ Geometry read_ply(const ShapeInput& in) {
 }
 
 Geometry read_serialized(const ShapeInput& in) {
-    const std::int64_t index = in.p.integer("shape_index", 0, 0, max_index);
+    const std::int64_t index = in.p.integer("shape_index", 0);
     MeshOptions options = read_mesh_options(in.p);
     SerializedMesh file = load_serialized(read_filename(in), index, in.p.location_of("filename"));
     options.face_normals |= file.face_normals;
@@ -124,7 +122,7 @@ Geometry read_sphere(const ShapeInput& in) {
     const double scale = uniform_scale(in.p, glm::dmat3(to_world));
     Sphere sphere;
     sphere.center = glm::dvec3(to_world * glm::dvec4(in.p.vector("center", glm::dvec3(0.0)), 1.0));
-    sphere.radius = scale * in.p.number("radius", 1.0, positive);
+    sphere.radius = scale * in.p.number("radius", 1.0);
     if (!(sphere.radius > 0.0) || !std::isfinite(sphere.radius) ||
         !std::isfinite(glm::dot(sphere.center, glm::dvec3(1.0))))
         refuse(in.p.location(), in.p.title() + ": to_world takes it out of the range of numbers");

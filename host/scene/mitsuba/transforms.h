@@ -11,6 +11,9 @@
 
 namespace parhelion::mitsuba {
 
+/// Along `v` and of unit length, however long or short it is; NaN for zero.
+glm::dvec3 unit_vector(const glm::dvec3& v);
+
 /// Turns about `axis` (any length but zero) through the origin, counter-clockwise by `degrees`.
 glm::dmat4 rotation(const glm::dvec3& axis, double degrees);
 

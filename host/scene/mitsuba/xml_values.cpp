@@ -1,8 +1,11 @@
 // The elements that hold a value: <float>, <rgb>, <transform> and their kin.
 #include "host/scene/mitsuba/xml_values.h"
 
+#include "host/scene/mitsuba/number_parameters.h"
 #include "host/scene/mitsuba/transforms.h"
 #include "host/scene/text.h"
+
+#include <fmt/format.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -35,6 +38,19 @@ double number_attribute(const Element& e, const char* name) {
     return *value;
 }
 
+void check_step(const Element& e, const char* name, double value) {
+    const Domain& domain = step_domain(lower_case(e.node.name()), name);
+    if (placed(domain, value) != value)
+        refuse(e.place(), fmt::format("{}: {} is {} (accepted: {})", e.title(), in_quotes(name),
+                                      value, accepted_text(domain)));
+}
+
+double step_number(const Element& e, const char* name) {
+    const double value = number_attribute(e, name);
+    check_step(e, name, value);
+    return value;
+}
+
 /// `value="a"`, `value="a b c"`, or x, y and z, of which some may be `missing`.
 glm::dvec3 vector_attributes(const Element& e, double missing) {
     const std::array<const char*, 3> axes = {"x", "y", "z"};
@@ -50,6 +66,13 @@ glm::dvec3 vector_attributes(const Element& e, double missing) {
     const std::string_view text = e.attribute("value");
     if (split(text, ", \t\r\n").size() == 1) return glm::dvec3(number_attribute(e, "value"));
     return parse_vector(text, e.title().c_str(), e.place());
+}
+
+glm::dvec3 step_vector(const Element& e, double missing) {
+    const glm::dvec3 v = vector_attributes(e, missing);
+    for (int i = 0; i < 3; ++i)
+        check_step(e, "x, y, z", v[i]);
+    return v;
 }
 
 Value read_float(const Element& e) {
@@ -108,25 +131,26 @@ Value read_spectrum(const Element& e) {
 
 glm::dmat4 read_rotate(const Element& e) {
     check_attributes(e.xml, e.node, {"!angle", "value", "x", "y", "z"});
-    const glm::dvec3 axis = vector_attributes(e, 0.0);
-    const double length = glm::length(axis);
-    if (!(length > 0.0) || !std::isfinite(length))
-        refuse(e.place(), "<rotate>: the axis (x, y, z) cannot be zero");
-    if (std::abs(length - 1.0) > 1e-5)
+    const glm::dvec3 axis = step_vector(e, 0.0);
+    if (axis == glm::dvec3(0.0)) refuse(e.place(), "<rotate>: the axis (x, y, z) cannot be zero");
+    if (std::abs(glm::length(axis) - 1.0) > 1e-5)
         e.notes.push_back(e.place().to_string() +
                           ": <rotate>: the axis is not a unit vector; it is used as a direction "
                           "(Mitsuba 3 gives a matrix that is no rotation)");
-    return rotation(axis, number_attribute(e, "angle"));
+    return rotation(axis, step_number(e, "angle"));
 }
 
 glm::dmat4 read_look_at(const Element& e) {
     check_attributes(e.xml, e.node, {"!origin", "!target", "up"});
-    const glm::dvec3 origin = parse_vector(e.attribute("origin"), "<lookat> origin", e.place());
-    const glm::dvec3 target = parse_vector(e.attribute("target"), "<lookat> target", e.place());
-    const glm::dvec3 up = e.attribute("up").empty()
-                              ? glm::dvec3(0.0)
-                              : parse_vector(e.attribute("up"), "<lookat> up", e.place());
-    return look_at(origin, target, up, e.place());
+    const auto read = [&](const char* name) {
+        const std::string what = e.title() + " " + name;
+        const glm::dvec3 v = parse_vector(e.attribute(name), what.c_str(), e.place());
+        for (int i = 0; i < 3; ++i)
+            check_step(e, "origin, target, up", v[i]);
+        return v;
+    };
+    const glm::dvec3 up = e.attribute("up").empty() ? glm::dvec3(0.0) : read("up");
+    return look_at(read("origin"), read("target"), up, e.place());
 }
 
 glm::dmat4 read_step(const Element& e) {
@@ -143,8 +167,8 @@ glm::dmat4 read_step(const Element& e) {
                               "> cannot stand inside <transform> (accepted: translate, rotate, "
                               "scale, matrix, lookat)");
     check_attributes(e.xml, e.node, {"value", "x", "y", "z"});
-    if (tag == "translate") return glm::translate(glm::dmat4(1.0), vector_attributes(e, 0.0));
-    return glm::scale(glm::dmat4(1.0), vector_attributes(e, 1.0));
+    if (tag == "translate") return glm::translate(glm::dmat4(1.0), step_vector(e, 0.0));
+    return glm::scale(glm::dmat4(1.0), step_vector(e, 1.0));
 }
 
 /// The steps act in the order they are written.
@@ -156,8 +180,12 @@ Value read_transform(const Element& e) {
             result = read_step({e.xml, child, e.files, e.notes}) * result;
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(result[column][row]))
-                refuse(e.place(), "<transform>: the product of its steps is not finite");
+            if (const Domain& domain = step_domain("matrix", "value");
+                !placed(domain, result[column][row]))
+                refuse(e.place(),
+                       fmt::format("<transform>: the product of its steps has the value {} "
+                                   "(accepted: {})",
+                                   result[column][row], accepted_text(domain)));
     return result;
 }
 

@@ -1,0 +1,142 @@
+// The list of all numbers that plugins take, each with its domain.
+#include "host/scene/mitsuba/number_parameters.h"
+
+#include "host/scene/limits.h"
+#include "host/scene/text.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace parhelion::mitsuba {
+
+namespace {
+
+using enum NumberForm;
+
+constexpr Domain share = between(0, 1);
+constexpr Domain count = whole_number(0, largest_int);
+/// Single precision ends there, at both ends: a sum of smaller ones would lose digits.
+constexpr Domain radiometric = between(0, 3.4e38).zero_below(1.18e-38);
+/// Optics ends at about 10; the squares of more are still far from the end of single precision.
+constexpr Domain refractive_index = between(0.01, 100);
+constexpr Domain complex_index = between(0, 1e6);
+/// Less is smooth to single precision: densities of normals are its fourth power. For more, energy
+/// compensation is off by more than 0.3 %, of a metal or of glass.
+constexpr Domain metal_roughness = between(1e-9, 4).nearest_from(0);
+constexpr Domain glass_roughness = between(1e-9, 2).nearest_from(0);
+/// Products of three of them are numbers.
+constexpr Domain coordinate = between(-1e100, 1e100);
+constexpr Domain size = between(1e-100, 1e100);
+/// Narrower ones are less than the rounding of a direction, whatever the film.
+constexpr Domain field_of_view{
+    .lowest = 1e-9, .highest = 180, .below_highest = true, .unit = "degrees"};
+constexpr Domain half_angle = strictly_between(0, 180).in("degrees");
+
+constexpr std::string_view dielectrics = "dielectric thindielectric roughdielectric";
+constexpr std::string_view power = "a power that single precision holds in the scene's unit";
+constexpr std::string_view cameras = "perspective thinlens";
+constexpr std::string_view samplers = "independent stratified multijitter orthogonal ldsampler";
+
+constexpr NumberParameter parameters[] = {
+    {"bsdf", "diffuse", "reflectance", color, share},
+    {"bsdf", "conductor roughconductor", "eta", color, complex_index},
+    {"bsdf", "conductor roughconductor", "k", color, complex_index},
+    {"bsdf", "conductor roughconductor dielectric thindielectric roughdielectric",
+     "specular_reflectance", color, share},
+    {"bsdf", dielectrics, "specular_transmittance", color, share},
+    {"bsdf", dielectrics, "int_ior", real, refractive_index,
+     "roughdielectric: a thousandth or more from ext_ior"},
+    {"bsdf", dielectrics, "ext_ior", real, refractive_index},
+    {"bsdf", "roughconductor", "alpha", real, metal_roughness},
+    {"bsdf", "roughconductor", "alpha_u", real, metal_roughness},
+    {"bsdf", "roughconductor", "alpha_v", real, metal_roughness},
+    {"bsdf", "roughdielectric", "alpha", real, glass_roughness},
+    {"bsdf", "roughdielectric", "alpha_u", real, glass_roughness},
+    {"bsdf", "roughdielectric", "alpha_v", real, glass_roughness},
+
+    {"emitter", "area constant", "radiance", color, radiometric, power},
+    {"emitter", "point spot", "intensity", color, radiometric, power},
+    {"emitter", "directional", "irradiance", color, radiometric, power},
+    {"emitter", "point", "position", vector, coordinate},
+    {"emitter", "directional", "direction", vector, coordinate, "not all 0"},
+    {"emitter", "spot", "cutoff_angle", real, half_angle},
+    {"emitter", "spot", "beam_width", real, between(0, 180).in("degrees"), "up to cutoff_angle"},
+    {"emitter", "point spot directional constant area", "sampling_weight", real, greater_than(0)},
+
+    {"shape", "sphere", "radius", real, size},
+    {"shape", "sphere", "center", vector, coordinate},
+    {"shape", "serialized", "shape_index", whole, count},
+    {"shape", "obj ply serialized rectangle cube sphere disk", "silhouette_sampling_weight", real,
+     any_number()},
+
+    {"sensor", cameras, "fov", real, field_of_view},
+    {"sensor", cameras, "focal_length", text, between(1e-6, 1e12).in("millimetres")},
+    {"sensor", cameras, "near_clip", real, size, "less than far_clip"},
+    {"sensor", cameras, "far_clip", real, size},
+    {"sensor", cameras, "focus_distance", real, between(0, 1e100), "thinlens: 1e-20 or greater"},
+    {"sensor", cameras, "shutter_open", real, any_number()},
+    {"sensor", cameras, "shutter_close", real, any_number(), "not less than shutter_open"},
+    {"sensor", "perspective", "principal_point_offset_x", real, between(-1000, 1000)},
+    {"sensor", "perspective", "principal_point_offset_y", real, between(-1000, 1000)},
+    {"sensor", "thinlens", "aperture_radius", real, between(0, 1e20)},
+
+    {"film", "hdrfilm", "width", whole, film_side_domain, "width times height: up to 2^28"},
+    {"film", "hdrfilm", "height", whole, film_side_domain, "width times height: up to 2^28"},
+    {"film", "hdrfilm", "crop_offset_x", whole, crop_offset_domain, "inside the film"},
+    {"film", "hdrfilm", "crop_offset_y", whole, crop_offset_domain, "inside the film"},
+    {"film", "hdrfilm", "crop_width", whole, film_side_domain, "inside the film"},
+    {"film", "hdrfilm", "crop_height", whole, film_side_domain, "inside the film"},
+
+    {"rfilter", "tent", "radius", real, between(1e-6, 16).in("pixels")},
+    {"rfilter", "gaussian", "stddev", real, between(1e-6, 4).in("pixels")},
+    {"rfilter", "mitchell", "B", real, between(-1, 2)},
+    {"rfilter", "mitchell", "C", real, between(-1, 2)},
+    {"rfilter", "lanczos", "lobes", whole, whole_number(1, 16)},
+
+    {"sampler", samplers, "sample_count", whole, samples_per_pixel_domain},
+    {"sampler", samplers, "seed", whole, seed_domain},
+    {"sampler", "orthogonal", "strength", whole, whole_number(0, 64)},
+
+    {"integrator", "path", "max_depth", whole, max_depth_domain},
+    {"integrator", "path", "rr_depth", whole, rr_depth_domain},
+    {"integrator", "direct", "shading_samples", whole, whole_number(1, largest_int)},
+    {"integrator", "direct", "emitter_samples", whole, count, "not 0 with bsdf_samples"},
+    {"integrator", "direct", "bsdf_samples", whole, count, "not 0 with emitter_samples"},
+    {"integrator", "path direct depth aov moment", "block_size", whole, count},
+    {"integrator", "path direct depth aov moment", "samples_per_pass", whole, count},
+    {"integrator", "path direct depth aov moment", "timeout", real,
+     Domain{.highest = 0.0}.in("seconds"), "pictures do not depend on the time they take"},
+
+    {"transform", "translate", "x, y, z", step, coordinate},
+    {"transform", "scale", "x, y, z", step, coordinate, "shapes: none 0"},
+    {"transform", "rotate", "x, y, z", step, coordinate, "not all 0"},
+    {"transform", "rotate", "angle", step, any_number().in("degrees")},
+    {"transform", "matrix", "value", step, coordinate, "last row 0 0 0 1, to rounding"},
+    {"transform", "lookat", "origin, target, up", step, coordinate,
+     "origin and target differ, up is not along them"},
+};
+
+bool has_plugin(const NumberParameter& parameter, std::string_view plugin) {
+    const std::vector<std::string_view> names = split(parameter.plugins, " ");
+    return std::find(names.begin(), names.end(), plugin) != names.end();
+}
+
+} // namespace
+
+std::span<const NumberParameter> number_parameters() { return parameters; }
+
+const NumberParameter& number_parameter(std::string_view tag, std::string_view plugin,
+                                        std::string_view name) {
+    for (const NumberParameter& parameter : parameters)
+        if (parameter.tag == tag && parameter.name == name && has_plugin(parameter, plugin))
+            return parameter;
+    throw std::logic_error(std::string(tag) + " " + std::string(plugin) + " has a number " +
+                           std::string(name) + " that is not in the list");
+}
+
+const Domain& step_domain(std::string_view element, std::string_view attribute) {
+    return number_parameter("transform", element, attribute).domain;
+}
+
+} // namespace parhelion::mitsuba

@@ -1,0 +1,29 @@
+// Groups of work-items larger than the device takes are refused before anything is launched.
+#include "host/cl/work_groups.h"
+#include "host/error.h"
+#include "host/render/stage_programs.h"
+#include "tests/support/device.h"
+
+#include <catch2/catch.hpp>
+
+using namespace parhelion;
+using namespace parhelion::test;
+
+TEST_CASE("Work-groups: the device's limit is refused with its number", "[device]") {
+    TestDevice d;
+    RenderDevice device(d.device);
+    std::size_t most = largest_work_group(device.device);
+    CHECK(most >= 1);
+    CHECK(most <= d.device.handle.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>());
+    for (std::size_t size : {most + 1, 2 * most, most + 100000}) {
+        StageOptions options{.lanes = 1, .work_group_size = static_cast<int>(size)};
+        std::string message;
+        try {
+            compile_stages(device, options);
+        } catch (const InputError& error) {
+            message = error.what();
+        }
+        CHECK(message.find("--work-group-size " + std::to_string(size)) == 0);
+        CHECK(message.find("1 to " + std::to_string(most)) != std::string::npos);
+    }
+}

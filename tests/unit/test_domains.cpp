@@ -1,0 +1,131 @@
+// Every number of every plugin, at the ends of its domain, inside and beyond: refused with one
+// line, mapped with a note, or an image that is right.
+#include "host/oracle/host_render.h"
+#include "test_scene_tools.h"
+#include "tests/support/domain_scenes.h"
+#include "tests/support/domain_values.h"
+
+#include <algorithm>
+#include <numbers>
+
+using namespace parhelion;
+using namespace parhelion::test;
+
+namespace {
+
+struct Outcome {
+    std::string refusal; ///< empty: loaded
+    Scene scene;
+};
+
+Outcome outcome_of(const std::string& text) {
+    try {
+        return {"", load_scene(SceneFolder().write("scene.xml", text))};
+    } catch (const InputError& error) {
+        return {error.what(), {}};
+    }
+}
+
+bool mentions(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// Needs files that this test has none of: only what is refused before they are read.
+bool is_mesh_file(std::string_view plugin) {
+    return plugin == "obj" || plugin == "ply" || plugin == "serialized";
+}
+
+/// What every pixel's mean is, where that is known: the light's own radiance, or the share that the
+/// ball sends on of a sky of 1.
+std::optional<double> expected_mean(const NumberParameter& p, std::string_view plugin, double v) {
+    if (p.name == "radiance" || p.name == "reflectance") return v;
+    if (plugin == "conductor" && p.name == "specular_reflectance") return v;
+    if (p.tag == "bsdf" && p.form == NumberForm::real) return 1.0;
+    return std::nullopt;
+}
+
+struct Range {
+    double least = 0, most = 0;
+};
+
+/// Noise: of a lobe scaled by up to 70, that of smooth things is rounding.
+Range accepted_mean(const NumberParameter& p, std::string_view plugin, double v) {
+    std::optional<double> expected = expected_mean(p, plugin, v);
+    if (!expected) return {0.0, p.tag == "emitter" ? 3.4e38 : 1.5};
+    bool noisy = mentions(plugin, "rough"), light = p.name == "radiance";
+    double error = light ? 1e-5 : noisy ? 0.5 : mentions(plugin, "dielectric") ? 0.02 : 0.05;
+    return {*expected * (1 - error), *expected * (1 + error)};
+}
+
+void check_image(const Scene& scene, const Range& range) {
+    Progress quiet(Progress::Mode::quiet);
+    RenderResult result = render_on_host(scene, {}, Precision::single_precision, quiet);
+    CHECK(result.report.non_finite_samples == 0);
+    const std::vector<float>& values = result.image.channels.front().values;
+    double mean = 0.0;
+    for (float value : values) {
+        REQUIRE(std::isfinite(value));
+        CHECK(value >= 0.f);
+        mean += double{value} / static_cast<double>(values.size());
+    }
+    CHECK(mean >= range.least);
+    CHECK(mean <= range.most);
+}
+
+/// Small enough for a test.
+bool can_render(const Scene& scene) {
+    return scene.film.width * std::int64_t{scene.film.height} <= 64 &&
+           scene.sampler.samples_per_pixel <= 64;
+}
+
+void resolve_crop(Film& film) {
+    if (film.crop_width == 0) film.crop_width = film.width, film.crop_height = film.height;
+}
+
+void check_number(const NumberParameter& p, std::string_view plugin, const TriedNumber& number) {
+    INFO(p.tag << " " << plugin << ", " << p.name << " = " << number.text);
+    Outcome outcome = outcome_of(domain_scene(p, plugin, number.text));
+    std::optional<double> taken = placed(p.domain, number.value);
+    CHECK(!mentions(outcome.refusal, "\n"));
+    if (!taken) {
+        CHECK(mentions(outcome.refusal, "scene.xml:1"));
+        if (number.text.size() < 10 && std::isfinite(number.value))
+            CHECK(mentions(outcome.refusal, accepted_text(p.domain)));
+        return;
+    }
+    bool noted = std::any_of(outcome.scene.notes.begin(), outcome.scene.notes.end(),
+                             [](const std::string& note) { return mentions(note, "taken as"); });
+    if (!outcome.refusal.empty()) {
+        CHECK((!p.also.empty() || is_mesh_file(plugin)));
+        return;
+    }
+    CHECK(noted == (*taken != number.value));
+    resolve_crop(outcome.scene.film);
+    if (can_render(outcome.scene)) check_image(outcome.scene, accepted_mean(p, plugin, *taken));
+}
+
+/// One ctest entry a kind: they run side by side.
+void walk(std::string_view tag) {
+    std::size_t walked = 0;
+    for (const NumberParameter& p : mitsuba::number_parameters()) {
+        if (p.tag != tag) continue;
+        for (std::string_view plugin : split(p.plugins, " "))
+            for (const TriedNumber& number : tried_numbers(p.domain)) {
+                check_number(p, plugin, number);
+                walked++;
+            }
+    }
+    CHECK(walked >= 14);
+}
+
+} // namespace
+
+TEST_CASE("Domains: numbers of bsdfs", "[domains]") { walk("bsdf"); }
+TEST_CASE("Domains: numbers of emitters", "[domains]") { walk("emitter"); }
+TEST_CASE("Domains: numbers of shapes", "[domains]") { walk("shape"); }
+TEST_CASE("Domains: numbers of sensors", "[domains]") { walk("sensor"); }
+TEST_CASE("Domains: numbers of films", "[domains]") { walk("film"); }
+TEST_CASE("Domains: numbers of filters", "[domains]") { walk("rfilter"); }
+TEST_CASE("Domains: numbers of samplers", "[domains]") { walk("sampler"); }
+TEST_CASE("Domains: numbers of integrators", "[domains]") { walk("integrator"); }
+TEST_CASE("Domains: numbers of transforms", "[domains]") { walk("transform"); }
