@@ -11,7 +11,7 @@ namespace parhelion {
 std::string option_name(const Option& option) {
     std::size_t last = option.names.rfind(',');
     std::string name = option.names.substr(last == std::string::npos ? 0 : last + 1);
-    return name.substr(name.find('-'));
+    return name.substr(name.starts_with('!') ? 1 : 0);
 }
 
 double option_number(const Option& option, const std::string& text) {

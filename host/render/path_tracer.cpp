@@ -2,6 +2,7 @@
 #include "host/render/path_tracer.h"
 
 #include "host/clock.h"
+#include "host/error.h"
 #include "host/render/film_image.h"
 #include "host/render/render_params.h"
 #include "host/render/scene_features.h"
@@ -75,6 +76,21 @@ int stream_count(const WorkSplit& split, const Device& device) {
                : 1;
 }
 
+/// Told before anything is rendered: systems give out memory that they do not have, and end the
+/// program when it is used.
+void check_film_memory(const Scene& scene, const WorkSizes& sizes, const Device& device) {
+    double film =
+        2.0 * static_cast<double>(sizes.film_channels * sizes.film_stride()) * sizeof(float);
+    // A CPU's memory holds what is read from the film, too.
+    double needed = device.is_cpu ? 2.0 * film : film;
+    if (needed <= static_cast<double>(device.memory_bytes)) return;
+    throw InputError(fmt::format(
+        "{}: a film of {} x {} pixels and {} channels takes {:.1f} GB; {} has {:.1f} GB (accepted: "
+        "a smaller --size, or a part of it, --crop)",
+        scene.file, scene.film.crop_width, scene.film.crop_height, sizes.film_channels,
+        needed / 1e9, device.name, static_cast<double>(device.memory_bytes) / 1e9));
+}
+
 } // namespace
 
 std::uint64_t render_features(const DeviceScene& scene, const RenderOptions& options) {
@@ -141,6 +157,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     split.streams = stream_count(split, device.device);
     WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, lanes,
                                  film_channels(scene.integrator, aovs), split);
+    check_film_memory(scene, sizes, device.device);
     RenderParams params = render_params(scene, flat, sizes, aovs);
     pipeline.upload(flat);
     pipeline.allocate(sizes, params);

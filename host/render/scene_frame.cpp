@@ -95,8 +95,9 @@ SceneFrame scene_frame(const Scene& scene) {
     // Seen from so far away that nobody can see it, the scene is a point: in a unit of its own size
     // the camera's place would be no number in single precision.
     constexpr double furthest = 0x1p-60;
-    frame.scale =
-        scale_for(glm::max(box.high - box.low, glm::abs(frame.shift) * furthest), scene.file);
+    glm::dvec3 extent = box.high - box.low;
+    if (extent != glm::dvec3(0.0)) extent = glm::max(extent, glm::abs(frame.shift) * furthest);
+    frame.scale = scale_for(extent, scene.file);
     return frame;
 }
 

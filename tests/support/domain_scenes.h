@@ -56,7 +56,7 @@ inline std::string companions(std::string_view plugin, std::string_view name) {
 /// Everything that stands in the scene, for each kind of plugin; what a number is of takes the
 /// place of the usual one. The usual ones: a unit ball in a sky of radiance 1, filling the image.
 struct DomainScene {
-    std::string integrator = "<integrator type='path'><integer name='max_depth' value='8'/>"
+    std::string integrator = "<integrator type='path'><integer name='max_depth' value='64'/>"
                              "</integrator>";
     std::string camera = "perspective", camera_numbers = "<float name='fov' value='10'/>";
     std::string film = "<integer name='width' value='4'/><integer name='height' value='4'/>";
@@ -77,9 +77,9 @@ struct DomainScene {
 };
 
 inline std::string domain_scene(const NumberParameter& p, std::string_view plugin,
-                                const std::string& value) {
+                                const std::string& value, const std::string& beside = "") {
     DomainScene scene;
-    std::string number = number_element(p, value) + companions(plugin, p.name);
+    std::string number = number_element(p, value) + companions(plugin, p.name) + beside;
     std::string whole = fmt::format("<{0} type='{1}'>{2}</{0}>", p.tag, plugin, number);
     if (p.tag == "bsdf") scene.bsdf = whole;
     if (p.tag == "integrator") scene.integrator = whole;

@@ -14,10 +14,12 @@ namespace {
 
 using enum NumberForm;
 
-constexpr Domain share = between(0, 1);
+/// The least number of single precision with all its digits.
+constexpr double least_normal = 1.18e-38;
+constexpr Domain share = between(0, 1).zero_below(least_normal);
 constexpr Domain count = whole_number(0, largest_int);
 /// Single precision ends there, at both ends: a sum of smaller ones would lose digits.
-constexpr Domain radiometric = between(0, 3.4e38).zero_below(1.18e-38);
+constexpr Domain radiometric = between(0, 3.4e38).zero_below(least_normal);
 /// Optics ends at about 10; the squares of more are still far from the end of single precision.
 constexpr Domain refractive_index = between(0.01, 100);
 constexpr Domain complex_index = between(0, 1e6);
@@ -73,9 +75,9 @@ constexpr NumberParameter parameters[] = {
     {"sensor", cameras, "fov", real, field_of_view},
     {"sensor", cameras, "focal_length", text, between(1e-6, 1e12).in("millimetres")},
     {"sensor", cameras, "near_clip", real, size, "less than far_clip"},
-    {"sensor", cameras, "far_clip", real, size},
+    {"sensor", cameras, "far_clip", real, size, "greater than near_clip"},
     {"sensor", cameras, "focus_distance", real, between(0, 1e100), "thinlens: 1e-20 or greater"},
-    {"sensor", cameras, "shutter_open", real, any_number()},
+    {"sensor", cameras, "shutter_open", real, any_number(), "not more than shutter_close"},
     {"sensor", cameras, "shutter_close", real, any_number(), "not less than shutter_open"},
     {"sensor", "perspective", "principal_point_offset_x", real, between(-1000, 1000)},
     {"sensor", "perspective", "principal_point_offset_y", real, between(-1000, 1000)},
