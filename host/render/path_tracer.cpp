@@ -132,6 +132,12 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     AovPlan aovs = plan_aovs(scene);
     int lanes = options.lanes > 0 ? options.lanes : device.device.lanes();
 
+    WorkSplit split = options.split;
+    split.streams = stream_count(split, device.device);
+    WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, lanes,
+                                 film_channels(scene.integrator, aovs), split);
+    check_film_memory(scene, sizes, device.device);
+
     progress.start("building the BVH");
     auto start = Clock::now();
     DeviceScene flat = make_device_scene(scene, options.light_choice);
@@ -153,11 +159,6 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     progress.finish(result.report.all_cached() ? "cached" : "compiled");
 
     start = Clock::now();
-    WorkSplit split = options.split;
-    split.streams = stream_count(split, device.device);
-    WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, lanes,
-                                 film_channels(scene.integrator, aovs), split);
-    check_film_memory(scene, sizes, device.device);
     RenderParams params = render_params(scene, flat, sizes, aovs);
     pipeline.upload(flat);
     pipeline.allocate(sizes, params);

@@ -38,6 +38,7 @@ inline std::vector<TriedNumber> tried_numbers(const Domain& d) {
     if (d.least_magnitude > 0.0)
         values.insert(values.end(), {d.least_magnitude, std::nextafter(d.least_magnitude, 0.0)});
     std::vector<TriedNumber> result;
+    result.reserve(values.size() + 10);
     for (double value : values)
         result.push_back(tried(value, d.whole));
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();

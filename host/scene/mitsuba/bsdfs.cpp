@@ -166,10 +166,11 @@ Bsdf read_rough_conductor(Properties& p) {
 Bsdf read_rough_dielectric(Properties& p) {
     const Roughness r = read_roughness(p);
     const double eta = read_relative_index(p);
-    // The lobe of refraction is as narrow as that, and the energy table too coarse for less.
-    if (constexpr double nearest = 1e-3; std::abs(eta - 1.0) < nearest)
+    // The nearer, the narrower the lobe of refraction: the energy table is too coarse for less.
+    constexpr double nearest = 1.003;
+    if (std::max(eta, 1.0 / eta) < nearest)
         p.refuse_value("int_ior", fmt::format("{} times \"ext_ior\"", eta),
-                       "two indices that differ by a thousandth or more");
+                       fmt::format("two indices, one {} times the other or more", nearest));
     note_compensation(p, r, 0.3);
     return RoughDielectricBsdf{r.distribution,
                                r.alpha_u,

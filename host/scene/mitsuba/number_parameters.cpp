@@ -18,8 +18,8 @@ using enum NumberForm;
 constexpr double least_normal = 1.18e-38;
 constexpr Domain share = between(0, 1).zero_below(least_normal);
 constexpr Domain count = whole_number(0, largest_int);
-/// Single precision ends there, at both ends: a sum of smaller ones would lose digits.
-constexpr Domain radiometric = between(0, 3.4e38).zero_below(least_normal);
+/// Single precision ends there.
+constexpr Domain radiometric = between(0, 3.4e38);
 /// Optics ends at about 10; the squares of more are still far from the end of single precision.
 constexpr Domain refractive_index = between(0.01, 100);
 constexpr Domain complex_index = between(0, 1e6);
@@ -48,7 +48,7 @@ constexpr NumberParameter parameters[] = {
      "specular_reflectance", color, share},
     {"bsdf", dielectrics, "specular_transmittance", color, share},
     {"bsdf", dielectrics, "int_ior", real, refractive_index,
-     "roughdielectric: a thousandth or more from ext_ior"},
+     "roughdielectric: 1.003 times ext_ior or more, or less than it by as much"},
     {"bsdf", dielectrics, "ext_ior", real, refractive_index},
     {"bsdf", "roughconductor", "alpha", real, metal_roughness},
     {"bsdf", "roughconductor", "alpha_u", real, metal_roughness},

@@ -1,13 +1,35 @@
-// Groups of work-items larger than the device takes are refused before anything is launched.
+// What a device cannot take is refused before anything is compiled or launched.
 #include "host/cl/work_groups.h"
 #include "host/error.h"
+#include "host/render/path_tracer.h"
 #include "host/render/stage_programs.h"
 #include "tests/support/device.h"
+#include "tests/support/every_kind_scene.h"
 
 #include <catch2/catch.hpp>
 
 using namespace parhelion;
 using namespace parhelion::test;
+
+TEST_CASE("Film: one that the device's memory does not hold is refused before any work",
+          "[device]") {
+    TestDevice d;
+    Device small = d.device;
+    small.memory_bytes = std::uint64_t{1} << 30;
+    RenderDevice device(small);
+    Scene scene = every_kind_scene();
+    scene.film.width = scene.film.crop_width = 16384;
+    scene.film.height = scene.film.crop_height = 16384;
+    Progress quiet(Progress::Mode::quiet);
+    std::string message;
+    try {
+        render(scene, device, {}, quiet);
+    } catch (const InputError& error) {
+        message = error.what();
+    }
+    CHECK(message.find("16384 x 16384") != std::string::npos);
+    CHECK(message.find("--crop") != std::string::npos);
+}
 
 TEST_CASE("Work-groups: the device's limit is refused with its number", "[device]") {
     TestDevice d;
