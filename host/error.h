@@ -2,6 +2,8 @@
 // accepted.
 #pragma once
 
+#include "host/safe_text.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -13,18 +15,9 @@ enum class ExitCode {
     different = 1,
     bad_input = 2,
     device_failure = 3,
-    internal_failure = 4
+    internal_failure = 4,
+    output_failure = 5
 };
-
-/// `text` with its control characters replaced: names and values that a message repeats can neither
-/// break its line nor tell the terminal what to do.
-inline std::string as_one_line(std::string text) {
-    for (char& c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x20 || byte == 0x7f) c = '?';
-    }
-    return text;
-}
 
 /// A scene, file, or command line that cannot be used. `what()` is one line, without a trailing
 /// newline.
@@ -38,6 +31,13 @@ public:
 class DeviceError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
+};
+
+/// A result that could not be written where it was asked for: a full disk, a closed standard
+/// output. `what()` is one line.
+class OutputError : public std::runtime_error {
+public:
+    explicit OutputError(const std::string& message) : std::runtime_error(as_one_line(message)) {}
 };
 
 /// A place in a text file, printed as `file:line`.

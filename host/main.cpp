@@ -2,18 +2,17 @@
 #include "host/commands/subcommands.h"
 #include "host/commands/version.h"
 #include "host/error.h"
+#include "host/streams.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <exception>
+#include <string>
 
 namespace {
 
 using namespace parhelion;
 
 int fail(ExitCode code, const char* what) {
-    fmt::print(stderr, "parhelion: {}\n", what);
+    say(std::string("parhelion: ") + what);
     return static_cast<int>(code);
 }
 
@@ -23,18 +22,29 @@ CommandLine command_line() {
         .footer =
             "Exit codes: 0 done, 1 images differ (compare), a check does not hold (stress) or "
             "a sample was not finite (render --strict), 2 unusable input, 3 device failure, "
-            "4 internal failure.\n"
+            "4 internal failure, 5 a result could not be written (disk full, standard output "
+            "closed, a file of its name made meanwhile).\n"
             "Each subcommand has its own --help with examples.",
+        .example = "parhelion render scene.xml -o image.exr",
         .version = version_text,
         .subcommands = all_subcommands(),
+        .print = print,
     };
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
+    const StandardStreams streams;
     try {
-        return run_command_line(command_line(), {argv + 1, argv + argc});
+        const int code = run_command_line(command_line(), {argv + 1, argv + argc});
+        check_printed();
+        return code;
+    } catch (const BrokenPipe&) {
+        streams.end_by_broken_pipe();
+        return fail(ExitCode::output_failure, "standard output: nobody reads it");
+    } catch (const OutputError& e) {
+        return fail(ExitCode::output_failure, e.what());
     } catch (const InputError& e) {
         return fail(ExitCode::bad_input, e.what());
     } catch (const DeviceError& e) {

@@ -1,11 +1,13 @@
 // Telling the user where a long piece of work is.
 #include "host/progress.h"
 
+#include "host/safe_text.h"
+#include "host/streams.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 
 namespace parhelion {
 namespace {
@@ -32,14 +34,14 @@ Progress Progress::standard(bool quiet) {
     return Progress(isatty(STDERR_FILENO) ? Mode::terminal : Mode::lines);
 }
 
-void Progress::print(const std::string& line, bool last) {
+void Progress::print(const std::string& text, bool last) {
+    const std::string line = as_one_line(text);
     if (mode_ == Mode::terminal) {
-        fmt::print(stderr, "\r{:<{}}{}", line, width_, last ? "\n" : "");
+        show(fmt::format("\r{:<{}}{}", line, width_, last ? "\n" : ""));
         width_ = last ? 0 : line.size();
     } else {
-        fmt::print(stderr, "{}\n", line);
+        show(line + '\n');
     }
-    std::fflush(stderr);
     printed_ = Clock::now();
 }
 

@@ -23,12 +23,12 @@ public:
     void update(double fraction, const std::string& rate);
     /// The stage is over, with a closing remark (may be empty).
     void finish(const std::string& remark);
-    /// A line that is no stage: a note or warning.
+    /// A line that is no stage: a note. Warnings are told when quiet, too (streams.h: say).
     void note(const std::string& text);
 
 private:
     using Clock = std::chrono::steady_clock;
-    void print(const std::string& line, bool last);
+    void print(const std::string& text, bool last);
 
     Mode mode_;
     std::string stage_;

@@ -18,7 +18,7 @@ def render(context, scene, *, spp, size=512, threads=1, seed=0, options=(), envi
 
 def compare(context, image, reference):
     """{rmse, relmse, flip, bias_relative, mean} of an image against a reference."""
-    report = json.loads(run([context.program, "compare", image, reference, "--json"]).stdout)
+    report = json.loads(run([context.program, "compare", image, reference, "--json", "--common"]).stdout)
     return {"rmse": report["all"]["rmse"], "relmse": report["all"]["relmse"], "flip": report["flip"]["mean"],
             "bias_relative": report["all"]["bias_relative"], "mean": report["all"]["mean_image"]}
 

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <sstream>
 #include <type_traits>
 #include <utility>
 
@@ -117,6 +118,24 @@ std::string unknown_arguments(const Subcommand& subcommand, const std::vector<st
     return fmt::format("{} (parhelion {} --help lists what it does)", message, subcommand.name);
 }
 
+/// What to type instead, where the first argument names no subcommand.
+void check_subcommand(const CommandLine& command_line, const std::vector<std::string>& arguments) {
+    std::vector<std::string> names;
+    for (const Subcommand& subcommand : command_line.subcommands)
+        names.push_back(subcommand.name);
+    const std::string there_are = fmt::format("there are {}", fmt::join(names, ", "));
+    if (arguments.empty())
+        throw InputError(fmt::format("command line: no subcommand ({}; --help says more); try {}",
+                                     there_are, command_line.example));
+    const std::string& first = arguments.front();
+    if (first.starts_with('-') || std::find(names.begin(), names.end(), first) != names.end())
+        return;
+    const std::string nearest = nearest_name(first, names);
+    throw InputError(fmt::format(
+        "command line: {} is no subcommand ({}); {}", in_quotes(first), there_are,
+        nearest.empty() ? "try " + command_line.example : "did you mean " + nearest + "?"));
+}
+
 } // namespace
 
 struct CommandLineReader::App : CLI::App {
@@ -145,6 +164,7 @@ CommandLineReader::~CommandLineReader() = default;
 
 int CommandLineReader::run(std::vector<std::string> arguments) {
     exit_code_ = 0;
+    check_subcommand(command_line_, arguments);
     std::reverse(arguments.begin(), arguments.end()); // as CLI::App::parse wants them
     try {
         app_->parse(arguments);
@@ -155,7 +175,12 @@ int CommandLineReader::run(std::vector<std::string> arguments) {
                 throw InputError(unknown_arguments(subcommand, arguments));
         throw InputError(e.what());
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return app_->exit(e); // help or version
+        if (e.get_exit_code() == 0) { // help or version
+            std::ostringstream text;
+            const int code = app_->exit(e, text, text);
+            if (command_line_.print) command_line_.print(text.str());
+            return code;
+        }
         throw InputError(e.what());
     }
     return exit_code_;

@@ -47,8 +47,10 @@ struct Subcommand {
 
 struct CommandLine {
     std::string summary{}, footer{};
+    std::string example{};                  ///< of a whole command line
     std::function<std::string()> version{}; ///< what --version prints
     std::vector<Subcommand> subcommands{};
+    std::function<void(const std::string&)> print{}; ///< of help and version
 };
 
 /// Reads command lines, one after the other. To be made takes much longer than to read one.

@@ -2,6 +2,7 @@
 #include "host/commands/command_text.h"
 
 #include "host/commands/option_number.h"
+#include "host/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +13,19 @@ std::string text_of(const std::string& value) { return quoted_for_shell(value); 
 template<class Number>
 std::string text_of(const Number& value) {
     return fmt::format("{}", value);
+}
+
+/// As bash, ksh and zsh read it, whatever bytes are in it: $'\033'.
+std::string quoted_with_escapes(const std::string& text) {
+    std::string out = "$'";
+    for (char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20 || byte >= 0x7f)
+            out += fmt::format("\\{:03o}", byte);
+        else
+            out += c == '\'' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+    }
+    return out + "'";
 }
 
 template<class T>
@@ -48,6 +62,7 @@ std::string quoted_for_shell(const std::string& text) {
     constexpr const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
                                   "-_./=,:+@%";
     if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+    if (as_one_line(text) != text) return quoted_with_escapes(text);
     std::string out = "'";
     for (char c : text)
         out += c == '\'' ? std::string("'\\''") : std::string(1, c);

@@ -5,12 +5,13 @@
 #include "host/error.h"
 #include "host/image/exr.h"
 #include "host/image/own_variance.h"
+#include "host/streams.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <memory>
+#include <sstream>
 
 namespace parhelion {
 
@@ -43,8 +44,8 @@ const std::array<LimitKind, 6> limit_kinds{{
      [](const Comparison& c) { return c.metrics.all.mae; }},
     {"bias", "Largest |mean A - mean B| / |mean B| of any channel (0.005 is 0.5 %)",
      &CompareOptions::bias, worst_bias},
-    {"max", "Largest difference of any value", &CompareOptions::max,
-     [](const Comparison& c) { return c.metrics.largest.value; }},
+    {"max", "Largest difference of any value of any channel", &CompareOptions::max,
+     [](const Comparison& c) { return std::max(c.metrics.largest.value, c.others.largest()); }},
     {"flip", "Largest mean LDR-FLIP, 0 to 1", &CompareOptions::flip,
      [](const Comparison& c) { return c.flip.value().mean; }},
 }};
@@ -58,11 +59,20 @@ std::vector<Judgement> judge(const CompareOptions& options, const Comparison& co
     return judgements;
 }
 
-bool all_pass(const Comparison& comparison, const std::vector<Judgement>& judgements) {
+/// What no figure shows: a channel that one image lacks, and other layers where the figures say
+/// that there is no difference.
+bool others_pass(const CompareOptions& options, const Comparison& comparison) {
+    if (!options.common && !comparison.others.none_missing()) return false;
+    return !comparison.equal || comparison.others.all_equal();
+}
+
+bool all_pass(const CompareOptions& options, const Comparison& comparison,
+              const std::vector<Judgement>& judgements) {
     const bool limits = std::all_of(judgements.begin(), judgements.end(),
                                     [](const Judgement& judgement) { return judgement.pass(); });
     const auto& test = comparison.z_test;
-    return limits && (!test || (test->pixels_pass && test->means_pass));
+    return limits && others_pass(options, comparison) &&
+           (!test || (test->pixels_pass && test->means_pass));
 }
 
 // ---- options
@@ -124,7 +134,8 @@ std::vector<Option> compare_options(CompareOptions& c) {
         {"A", &c.image, "Image (.exr)", {.required = true}},
         {"B", &c.reference, "Reference (.exr)", {.required = true}},
         {"--json", &c.json, "Report as one JSON object"},
-        {"--layer", &c.figures.layer, "Compare the channels NAME.* instead of the main layer"},
+        {"--layer", &c.figures.layer, "Compare the channels NAME.* alone"},
+        {"--common", &c.common, "Channels that only one of the images has are no difference"},
         {"--epsilon",
          &c.figures.epsilon,
          "relMSE is the mean of (A - B)^2 / (B^2 + epsilon)",
@@ -157,13 +168,16 @@ int run_compare(const CompareOptions& options, std::ostream& out) {
             VarianceInput{{options.variance, variance}, options.xyz_statistics, options.test});
         variance_input->test.samples = options.samples.value();
     }
-    const Comparison comparison = compare_images(a, b, options.figures, variance_input);
+    ComparisonOptions figures = options.figures;
+    if (options.variance == own_variance)
+        figures.left_out_layers.assign(own_variance_layers.begin(), own_variance_layers.end());
+    const Comparison comparison = compare_images(a, b, figures, variance_input);
     if (options.flip && !comparison.flip)
         throw InputError(options.image + ": --flip needs R, G and B with finite values");
     const std::vector<Judgement> judgements = judge(options, comparison);
-    const bool pass = all_pass(comparison, judgements);
+    const bool pass = all_pass(options, comparison, judgements);
     if (options.json)
-        out << comparison_json(options, comparison, judgements, pass) << "\n";
+        out << comparison_json(options, comparison, judgements, pass);
     else
         print_comparison(out, options, comparison, judgements);
     return static_cast<int>(pass ? ExitCode::ok : ExitCode::different);
@@ -174,7 +188,7 @@ Subcommand compare_subcommand() {
     return {
         .name = "compare",
         .summary = "Compare two EXR images; exit code 0 within the limits given (or none given), "
-                   "1 not, 2 unusable input",
+                   "1 not, or channels differ that the figures are not of, 2 unusable input",
         .examples =
             "Examples:\n"
             "  parhelion compare image.exr reference.exr\n"
@@ -182,7 +196,13 @@ Subcommand compare_subcommand() {
             "  parhelion compare image.exr reference.exr --variance own\n"
             "  parhelion compare image.exr reference.exr --variance variance.exr --spp 64",
         .options = compare_options(*c),
-        .run = [c] { return run_compare(*c, std::cout); },
+        .run =
+            [c] {
+                std::ostringstream text;
+                const int code = run_compare(*c, text);
+                print(text.str());
+                return code;
+            },
     };
 }
 

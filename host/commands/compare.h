@@ -15,6 +15,7 @@ struct CompareOptions {
     std::string image, reference;
     ComparisonOptions figures;
     bool json = false;
+    bool common = false; ///< a channel that one image alone has is no difference
 
     /// Largest values accepted; absent: reported, not judged.
     std::optional<double> rmse, relmse, mae, bias, max, flip;
@@ -26,8 +27,9 @@ struct CompareOptions {
 };
 
 /// Compares, prints the report and returns the exit code: ok where everything asked for is within
-/// its limit (or no limit was given), different where not. Throws InputError (exit code bad_input)
-/// for files that cannot be compared; nothing has been printed then.
+/// its limit (or no limit was given), different where not, where one image alone has a channel, or
+/// where the figures show no difference and another channel does. Throws InputError (exit code
+/// bad_input) for files that cannot be compared; nothing has been printed then.
 int run_compare(const CompareOptions& options, std::ostream& out);
 
 /// The options of `compare`, which write to `options`.

@@ -1,8 +1,10 @@
 // The table and the JSON object `parhelion compare` prints.
 #include "host/commands/compare_report.h"
 
+#include "host/json_text.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <ostream>
@@ -137,6 +139,10 @@ ordered_json to_json(const CompareOptions& options, const Comparison& comparison
                           {"limit", judgement.limit},
                           {"measured", judgement.measured},
                           {"pass", judgement.pass()}});
+    ordered_json others = ordered_json::array();
+    for (const OtherChannel& other : comparison.others.common)
+        others.push_back(
+            {{"different_values", other.different}, {"max_error", to_json(other.largest)}});
     ordered_json flip = nullptr;
     if (comparison.flip)
         flip = {{"mean", comparison.flip->mean},
@@ -153,23 +159,47 @@ ordered_json to_json(const CompareOptions& options, const Comparison& comparison
             {"width_px", comparison.width},
             {"height_px", comparison.height},
             {"value_unit", "linear, as stored"},
-            {"identical", comparison.identical},
+            {"identical", comparison.identical()},
             {"non_finite_equal_values", comparison.non_finite.equal},
             {"relmse_epsilon", comparison.metrics.epsilon},
             {"all", to_json(comparison.metrics.all)},
             {"channels", channels},
             {"max_error", to_json(comparison.metrics.largest)},
+            {"other_channels", others},
+            {"only_in_image", comparison.others.in_image},
+            {"only_in_reference", comparison.others.in_reference},
+            {"not_compared", comparison.others.left_out},
             {"flip", flip},
             {"z_test", z_test},
             {"limits", limits},
             {"pass", pass}};
 }
+
+void print_others(std::ostream& out, const OtherChannels& others, bool common) {
+    for (const OtherChannel& other : others.common)
+        out << fmt::format("{:<24}{}\n", other.name,
+                           other.different == 0
+                               ? "the same"
+                               : fmt::format("{} values differ, largest error {:.6g} at {},{}",
+                                             other.different, other.largest.value, other.largest.x,
+                                             other.largest.y));
+    const auto list = [&](const char* label, const std::vector<std::string>& names,
+                          const char* remark) {
+        if (!names.empty())
+            out << fmt::format("{:<24}{}{}\n", label, fmt::join(names, " "), remark);
+    };
+    list("only in A", others.in_image, common ? "" : ": FAIL");
+    list("only in B", others.in_reference, common ? "" : ": FAIL");
+    list("not compared", others.left_out, "");
+}
+
 } // namespace
 
 void print_comparison(std::ostream& out, const CompareOptions& options,
                       const Comparison& comparison, const std::vector<Judgement>& judgements) {
     out << fmt::format("A  {}\nB  {} (reference)\n{}x{} pixels, linear values as stored\n\n",
-                       options.image, options.reference, comparison.width, comparison.height);
+                       as_one_line(options.image), as_one_line(options.reference), comparison.width,
+                       comparison.height);
     print_figures(out, comparison);
     const LargestError& largest = comparison.metrics.largest;
     out << fmt::format("\n{:<24}{:.6g} at {},{} in {}\n", "largest error", largest.value, largest.x,
@@ -183,20 +213,21 @@ void print_comparison(std::ostream& out, const CompareOptions& options,
     if (comparison.non_finite.equal > 0)
         out << fmt::format("{:<24}{} values, the same in both, left out\n", "not finite",
                            comparison.non_finite.equal);
+    print_others(out, comparison.others, options.common);
     if (comparison.z_test)
         print_z_test(out, *comparison.z_test, options, comparison.negative_variances);
     for (const Judgement& judgement : judgements)
         out << fmt::format("{:<24}{:.6g}, limit {:g}: {}\n",
                            fmt::format("limit on {}", judgement.name), judgement.measured,
                            judgement.limit, verdict(judgement.pass()));
-    if (comparison.identical) out << "every value is the same\n";
+    if (comparison.identical())
+        out << (comparison.others.left_out.empty() ? "every value is the same\n"
+                                                   : "every value compared is the same\n");
 }
 
 std::string comparison_json(const CompareOptions& options, const Comparison& comparison,
                             const std::vector<Judgement>& judgements, bool pass) {
-    // A file name need not be UTF-8.
-    return to_json(options, comparison, judgements, pass)
-        .dump(2, ' ', false, ordered_json::error_handler_t::replace);
+    return json_text(to_json(options, comparison, judgements, pass));
 }
 
 } // namespace parhelion

@@ -4,12 +4,13 @@
 #include "host/cl/self_test.h"
 #include "host/cl/work_groups.h"
 #include "host/error.h"
+#include "host/json_text.h"
+#include "host/streams.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <memory>
+#include <string>
 
 namespace parhelion {
 namespace {
@@ -38,17 +39,16 @@ nlohmann::json to_json(const Tested& t) {
             {"self_test", t.failure.empty() ? "passed" : t.failure}};
 }
 
-void print_text(const Tested& t) {
+std::string text_of(const Tested& t) {
     const Device& d = t.device;
-    fmt::print("{}: {}\n", d.index, d.name);
-    fmt::print("   {} ({}), driver {}, {}\n", d.platform, d.vendor, d.driver_version,
-               d.opencl_version);
-    fmt::print("   {} compute units, {:.1f} GB memory, largest buffer {:.1f} GB, {} floats a "
-               "vector, {} lanes, fp64 {}\n",
-               d.compute_units, static_cast<double>(d.memory_bytes) / 1e9,
-               static_cast<double>(d.max_allocation_bytes) / 1e9, d.float_width, d.lanes(),
-               d.fp64 ? "yes" : "no");
-    fmt::print("   self-test {}\n", t.failure.empty() ? "passed" : "FAILED: " + t.failure);
+    return fmt::format(
+        "{}: {}\n   {} ({}), driver {}, {}\n"
+        "   {} compute units, {:.1f} GB memory, largest buffer {:.1f} GB, {} floats a vector, {} "
+        "lanes, fp64 {}\n   self-test {}\n",
+        d.index, d.name, d.platform, d.vendor, d.driver_version, d.opencl_version, d.compute_units,
+        static_cast<double>(d.memory_bytes) / 1e9,
+        static_cast<double>(d.max_allocation_bytes) / 1e9, d.float_width, d.lanes(),
+        d.fp64 ? "yes" : "no", t.failure.empty() ? "passed" : "FAILED: " + t.failure);
 }
 
 int run_devices(bool json) {
@@ -61,15 +61,13 @@ int run_devices(bool json) {
         if (json)
             devices.push_back(to_json(tested));
         else
-            print_text(tested);
+            print(text_of(tested));
     }
-    if (json)
-        fmt::print("{}\n",
-                   nlohmann::json{{"devices", devices}, {"failures", list.failures}}.dump(2));
+    if (json) print(json_text(nlohmann::json{{"devices", devices}, {"failures", list.failures}}));
     for (const std::string& failure : list.failures)
-        fmt::print(stderr, "parhelion: {}\n", failure);
+        say("parhelion: " + failure);
     if (list.devices.empty())
-        fmt::print(stderr, "parhelion: no OpenCL device (on a CPU, install pocl-opencl-icd)\n");
+        say("parhelion: no OpenCL device (on a CPU, install pocl-opencl-icd)");
     return static_cast<int>(one_works ? ExitCode::ok : ExitCode::device_failure);
 }
 

@@ -3,14 +3,15 @@
 
 #include "host/commands/render.h"
 #include "host/error.h"
+#include "host/json_text.h"
 #include "host/render/device_scene.h"
 #include "host/render/kind_names.h"
 #include "host/render/report.h"
 #include "host/scene/load.h"
+#include "host/streams.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <array>
 #include <map>
@@ -67,29 +68,37 @@ std::string counted(const nlohmann::json& kinds) {
     return text.empty() ? "none" : text;
 }
 
-void print_text(const nlohmann::json& info) {
-    fmt::print("{}\n", info["scene"].get<std::string>());
-    fmt::print("  film       {} x {} pixels, {} spp\n", info["film"]["width_pixels"].get<int>(),
-               info["film"]["height_pixels"].get<int>(), info["samples_per_pixel"].get<int>());
-    fmt::print("  frame      centre ({:g}), unit 2^{}\n",
-               fmt::join(info["frame"]["centre"].get<std::vector<double>>(), ", "),
-               info["frame"]["unit_exponent"].get<int>());
-    fmt::print("  shapes     {} ({} triangles)\n", counted(info["shapes"]),
-               info["triangles"].get<std::size_t>());
-    fmt::print("  materials  {}\n", counted(info["materials"]));
-    fmt::print("  lights     {}\n", counted(info["lights"]));
-    fmt::print("  textures   {}\n", info["textures"].get<int>());
-    fmt::print("  BVH        {} nodes, {} leaves, depth {}, SAH cost {:.2f}\n",
-               info["bvh"]["nodes"].get<std::size_t>(), info["bvh"]["leaves"].get<std::size_t>(),
-               info["bvh"]["depth"].get<int>(), info["bvh"]["sah_cost"].get<double>());
-    fmt::print("  memory     {:.1f} MB on the device\n",
-               info["device_scene_bytes"].get<double>() / 1e6);
-    fmt::print("  kernels    {}\n",
-               fmt::join(info["kernel_features"].get<std::vector<std::string>>(), " "));
-    fmt::print("  left out   {}\n",
-               fmt::join(info["skipped_features"].get<std::vector<std::string>>(), " "));
+std::string joined(const nlohmann::json& names) {
+    return fmt::format("{}", fmt::join(names.get<std::vector<std::string>>(), " "));
+}
+
+std::string text_of(const nlohmann::json& info) {
+    const nlohmann::json &film = info["film"], &frame = info["frame"], &bvh = info["bvh"];
+    std::string text = as_one_line(info["scene"].get<std::string>()) + '\n';
+    const auto add = [&text](const char* label, const std::string& line) {
+        text += fmt::format("  {:<10} {}\n", label, as_one_line(line));
+    };
+    add("film",
+        fmt::format("{} x {} pixels, {} spp", film["width_pixels"].get<int>(),
+                    film["height_pixels"].get<int>(), info["samples_per_pixel"].get<int>()));
+    add("frame", fmt::format("centre ({:g}), unit 2^{}",
+                             fmt::join(frame["centre"].get<std::vector<double>>(), ", "),
+                             frame["unit_exponent"].get<int>()));
+    add("shapes", fmt::format("{} ({} triangles)", counted(info["shapes"]),
+                              info["triangles"].get<std::size_t>()));
+    add("materials", counted(info["materials"]));
+    add("lights", counted(info["lights"]));
+    add("textures", fmt::format("{}", info["textures"].get<int>()));
+    add("BVH", fmt::format("{} nodes, {} leaves, depth {}, SAH cost {:.2f}",
+                           bvh["nodes"].get<std::size_t>(), bvh["leaves"].get<std::size_t>(),
+                           bvh["depth"].get<int>(), bvh["sah_cost"].get<double>()));
+    add("memory",
+        fmt::format("{:.1f} MB on the device", info["device_scene_bytes"].get<double>() / 1e6));
+    add("kernels", joined(info["kernel_features"]));
+    add("left out", joined(info["skipped_features"]));
     for (const auto& note : info["notes"])
-        fmt::print("  note       {}\n", note.get<std::string>());
+        add("note", note.get<std::string>());
+    return text;
 }
 
 int run_info(const InfoCommand& command) {
@@ -97,10 +106,7 @@ int run_info(const InfoCommand& command) {
                              {parse_definitions(command.definitions), command.allow_outside});
     if (!command.energy_compensation) leave_out_energy_compensation(scene);
     nlohmann::json info = describe(scene, make_device_scene(scene));
-    if (command.json)
-        fmt::print("{}\n", info.dump(2));
-    else
-        print_text(info);
+    print(command.json ? json_text(info) : text_of(info));
     return static_cast<int>(ExitCode::ok);
 }
 

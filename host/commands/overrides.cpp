@@ -85,7 +85,25 @@ AovRequest aov_request(const std::string& name) {
     return {name, name == "normals" ? "sh_normal" : name, {"--aov", 0}};
 }
 
+bool is_cropped(const Film& film) {
+    return film.crop_width > 0 && (film.crop_width < film.width || film.crop_height < film.height);
+}
+
+std::string lost_crop_note(const Film& film) {
+    return fmt::format(
+        "--size: the scene's crop of {}x{} pixels at {},{} is of a film of {}x{} and "
+        "does not count (--crop gives one)",
+        film.crop_width, film.crop_height, film.crop_x, film.crop_y, film.width, film.height);
+}
+
 } // namespace
+
+std::vector<UsedFile> files_of(const Scene& scene) {
+    std::vector<UsedFile> files{{"the scene", scene.file}};
+    for (const std::string& file : scene.files)
+        files.push_back({"a file of the scene,", file});
+    return files;
+}
 
 void leave_out_energy_compensation(Scene& scene) {
     for (Material& material : scene.materials) {
@@ -97,6 +115,8 @@ void leave_out_energy_compensation(Scene& scene) {
 }
 
 void apply_overrides(const RenderCommand& command, Scene& scene) {
+    if (command.size && !command.crop && is_cropped(scene.film))
+        scene.notes.push_back(lost_crop_note(scene.film));
     if (command.size) set_size(*command.size, scene.film);
     if (command.crop) set_crop(*command.crop, scene.film);
     Film& film = scene.film;

@@ -4,12 +4,13 @@
 #include "host/commands/option_number.h"
 #include "host/commands/subcommands.h"
 #include "host/error.h"
+#include "host/json_text.h"
 #include "host/scene/mitsuba/number_parameters.h"
 #include "host/scene/text.h"
+#include "host/streams.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -98,10 +99,7 @@ Subcommand parameters_subcommand() {
         .options = {{"--json", json.get(), "One JSON object"}},
         .run =
             [json] {
-                if (*json)
-                    fmt::print("{}\n", parameters_json().dump(2));
-                else
-                    fmt::print("{}", parameters_page());
+                print(*json ? json_text(parameters_json()) : parameters_page());
                 return static_cast<int>(ExitCode::ok);
             },
     };

@@ -5,16 +5,18 @@
 #include "host/commands/bad_sample_warning.h"
 #include "host/commands/compile.h"
 #include "host/error.h"
+#include "host/image/distinct_files.h"
 #include "host/image/exr.h"
 #include "host/image/output.h"
 #include "host/image/png.h"
+#include "host/json_text.h"
 #include "host/oracle/host_render.h"
 #include "host/progress.h"
 #include "host/scene/load.h"
+#include "host/streams.h"
 #include "parhelion_version.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
 #include <cstdlib>
@@ -31,22 +33,36 @@ void add_metadata(const Scene& scene, const RenderReport& report, Image& image) 
                                 static_cast<std::int64_t>(scene.sampler.samples_per_pixel));
     image.metadata.emplace_back("seed", static_cast<std::int64_t>(scene.sampler.seed));
     image.metadata.emplace_back("device", report.device);
-    image.metadata.emplace_back("renderTime", report.render_seconds);
 }
 
 void write_output(const std::string& file, const RenderCommand& command, const Scene& scene,
                   const Image& image, Progress& progress) {
     if (image_format(file) == ImageFormat::png) {
-        std::size_t bad = write_png(file, image, command.exposure.value_or(0.0));
+        std::size_t bad =
+            write_png(file, image, command.exposure.value_or(0.0), existing_files(command.force));
         if (bad > 0)
             progress.note(
                 fmt::format("{}: {} pixels are not finite and shown in magenta", file, bad));
         return;
     }
-    std::size_t lost = write_exr(file, image, {scene.film.component_format});
+    std::size_t lost =
+        write_exr(file, image, {scene.film.component_format, existing_files(command.force)});
     if (lost > 0)
         progress.note(
             fmt::format("{}: {} values do not fit the film's component format", file, lost));
+}
+
+std::vector<UsedFile> outputs_of(const RenderCommand& command) {
+    return {{"--output", command.output}, {"--stats", command.stats_file}};
+}
+
+/// What the scene asks for and a preview does not show.
+void note_lost_layers(const RenderCommand& command, Scene& scene) {
+    if (image_format(command.output) != ImageFormat::png || scene.integrator.aovs.empty()) return;
+    std::string names;
+    for (const AovRequest& aov : scene.integrator.aovs)
+        names += (names.empty() ? "" : ", ") + aov.name;
+    scene.notes.push_back("a .png preview holds no layers; left out: " + names);
 }
 
 /// Must come before the first OpenCL call: the CPU device reads its environment once.
@@ -69,6 +85,7 @@ int run_render(const RenderCommand& command) {
     if (command.trace) return run_trace(command);
     check_output(command.output, command.force);
     if (!command.stats_file.empty()) check_output_file(command.stats_file, command.force);
+    check_distinct(outputs_of(command), {{"the scene", command.scene_file}});
     check_command(command);
     limit_threads(command.threads);
     std::optional<tbb::global_control> host_threads;
@@ -81,6 +98,8 @@ int run_render(const RenderCommand& command) {
     Scene scene = load_scene(command.scene_file,
                              {parse_definitions(command.definitions), command.allow_outside});
     apply_overrides(command, scene);
+    check_distinct(outputs_of(command), files_of(scene));
+    note_lost_layers(command, scene);
     double load_seconds = seconds_since(start);
     progress.finish(fmt::format("{} shapes, {}x{} pixels, {} spp", scene.shapes.size(),
                                 scene.film.crop_width, scene.film.crop_height,
@@ -93,14 +112,15 @@ int run_render(const RenderCommand& command) {
     add_metadata(scene, result.report, result.image);
     // Not a matter of progress: told when quiet, too.
     bool bad = result.report.non_finite_samples > 0;
-    if (bad) fmt::print(stderr, "{}\n", bad_sample_warning(command, result.report));
+    if (bad) say(bad_sample_warning(command, result.report));
 
     start = Clock::now();
     write_output(command.output, command, scene, result.image, progress);
     result.report.write_seconds = seconds_since(start);
     result.report.host_peak_bytes = peak_host_bytes();
     if (!command.stats_file.empty())
-        write_text_file(command.stats_file, to_json(result.report).dump(2) + '\n');
+        write_text_file(command.stats_file, json_text(to_json(result.report)),
+                        existing_files(command.force));
     progress.note("wrote " + command.output);
     return static_cast<int>(bad && command.strict ? ExitCode::different : ExitCode::ok);
 }

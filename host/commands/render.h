@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/commands/command_line.h"
+#include "host/image/distinct_files.h"
 #include "host/render/path_tracer.h"
 
 #include <array>
@@ -33,6 +34,9 @@ struct RenderCommand {
 /// Loads, renders and writes; the exit code. Throws InputError before any output exists, or
 /// DeviceError.
 int run_render(const RenderCommand& command);
+
+/// What a scene was read from: no output may be one of them.
+std::vector<UsedFile> files_of(const Scene& scene);
 
 /// Replaces what the scene file says by what the command line says. Throws InputError naming the
 /// option.

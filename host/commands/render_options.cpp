@@ -172,6 +172,8 @@ bool in_double(const RenderCommand& command) {
 void check_command(const RenderCommand& command) {
     if (command.exposure && image_format(command.output) != ImageFormat::png)
         throw InputError("--exposure: is for .png previews; an .exr holds linear values");
+    if (!command.aovs.empty() && image_format(command.output) == ImageFormat::png)
+        throw InputError("--aov: a .png preview holds no layers; write an .exr");
     check_split(command.options);
     in_double(command);
 }

@@ -4,16 +4,17 @@
 #include "host/clock.h"
 #include "host/commands/version.h"
 #include "host/error.h"
+#include "host/image/distinct_files.h"
 #include "host/image/output.h"
+#include "host/json_text.h"
 #include "host/render/render_device.h"
 #include "host/scene/limits.h"
+#include "host/streams.h"
 #include "host/stress/catalogue.h"
 #include "host/stress/report.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -39,7 +40,7 @@ std::vector<stress::Row> wanted_rows(const std::string& filter) {
 
 void list_rows(const std::vector<stress::Row>& rows) {
     for (const stress::Row& row : rows)
-        fmt::print("{:<12} {:<34} {}\n", row.chapter, row.name, row.title);
+        print(fmt::format("{:<12} {:<34} {}\n", row.chapter, row.name, row.title));
 }
 
 stress::RowResult run_row(const stress::Row& row, stress::StressRun& run, Progress& progress) {
@@ -50,9 +51,8 @@ stress::RowResult run_row(const stress::Row& row, stress::StressRun& run, Progre
     std::size_t failing = 0;
     for (const stress::Check& check : result.checks) {
         failing += !check.holds();
-        fmt::print("{}\n", stress::text_line(check));
+        print(stress::text_line(check) + '\n');
     }
-    std::fflush(stdout);
     progress.finish(failing == 0 ? "all hold"
                                  : fmt::format("{} of {} FAIL", failing, result.checks.size()));
     return result;
@@ -70,6 +70,7 @@ void check_outputs(const StressCommand& c) {
     std::filesystem::create_directories(c.report_folder, error);
     if (error) throw InputError(fmt::format("--report {}: {}", c.report_folder, error.message()));
     check_output_file(page_file(c), c.force);
+    check_distinct({{"--json", c.json_file}, {"--report", page_file(c)}}, {});
 }
 
 int run_stress(const StressCommand& c) {
@@ -88,10 +89,12 @@ int run_stress(const StressCommand& c) {
     for (const stress::Row& row : rows)
         report.rows.push_back(run_row(row, run, progress));
     if (!c.json_file.empty())
-        write_text_file(c.json_file, stress::report_json(report).dump(2) + "\n");
-    if (!c.report_folder.empty()) write_text_file(page_file(c), stress::report_page(report));
-    fmt::print("{} checks in {:.0f} s: {}\n", report.check_count(), report.seconds(),
-               report.holds() ? "all hold" : "NOT all hold");
+        write_text_file(c.json_file, json_text(stress::report_json(report)),
+                        existing_files(c.force));
+    if (!c.report_folder.empty())
+        write_text_file(page_file(c), stress::report_page(report), existing_files(c.force));
+    print(fmt::format("{} checks in {:.0f} s: {}\n", report.check_count(), report.seconds(),
+                      report.holds() ? "all hold" : "NOT all hold"));
     return static_cast<int>(report.holds() ? ExitCode::ok : ExitCode::different);
 }
 

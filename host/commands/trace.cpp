@@ -2,13 +2,13 @@
 #include "host/commands/render.h"
 #include "host/commands/trace_report.h"
 #include "host/error.h"
+#include "host/image/distinct_files.h"
 #include "host/image/output.h"
+#include "host/json_text.h"
 #include "host/scene/load.h"
+#include "host/streams.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include <cstdio>
 
 namespace parhelion {
 namespace {
@@ -34,15 +34,19 @@ int run_trace(const RenderCommand& command) {
     check_trace(command);
     Scene scene = load_scene(command.scene_file,
                              {parse_definitions(command.definitions), command.allow_outside});
+    check_distinct({{"--json", command.json_file}}, files_of(scene));
     apply_overrides(command, scene);
+    Progress progress = Progress::standard(command.quiet);
+    for (const std::string& note : scene.notes)
+        progress.note("note: " + note);
     auto [x, y] = parse_pixel(*command.pixel, scene.film);
     int sample = checked_sample(*command.sample, scene.sampler.samples_per_pixel);
     DeviceScene flat = make_device_scene(scene, command.options.light_choice);
     nlohmann::json trace = trace_json(scene, flat, trace_sample(scene, flat, x, y, sample));
     if (command.json_file.empty())
-        fmt::print("{}", trace_text(trace));
+        print(trace_text(trace));
     else
-        write_text_file(command.json_file, trace.dump(2) + '\n');
+        write_text_file(command.json_file, json_text(trace), existing_files(command.force));
     return static_cast<int>(ExitCode::ok);
 }
 

@@ -1,6 +1,8 @@
 // The trace of a sample for people.
 #include "host/commands/trace_report.h"
 
+#include "host/safe_text.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -18,7 +20,7 @@ std::string triple(const json& v) {
 }
 
 std::string named(const json& thing, const char* kind) {
-    std::string id = thing["id"].get<std::string>();
+    std::string id = as_one_line(thing["id"].get<std::string>());
     return fmt::format("{}{} ({})", thing["index"].get<int>(), id.empty() ? "" : " '" + id + "'",
                        thing[kind].get<std::string>());
 }
@@ -125,10 +127,11 @@ std::string left_out_text(const json& fault) {
 } // namespace
 
 std::string trace_text(const json& trace) {
-    std::string text = fmt::format(
-        "{}: pixel {},{} sample {}, seed {}, sampler {}\n", trace["scene"].get<std::string>(),
-        trace["pixel"][0].get<int>(), trace["pixel"][1].get<int>(), trace["sample"].get<int>(),
-        trace["seed"].get<unsigned>(), trace["sampler"].get<std::string>());
+    std::string text =
+        fmt::format("{}: pixel {},{} sample {}, seed {}, sampler {}\n",
+                    as_one_line(trace["scene"].get<std::string>()), trace["pixel"][0].get<int>(),
+                    trace["pixel"][1].get<int>(), trace["sample"].get<int>(),
+                    trace["seed"].get<unsigned>(), trace["sampler"].get<std::string>());
     if (!trace["on_film"].get<bool>())
         return text +
                "the filter puts this sample beyond the edge of the film: it does not count\n";

@@ -169,7 +169,9 @@ Comparison compare_images(const NamedImage& image, const NamedImage& reference,
         if (std::none_of(pair.image.begin(), pair.image.end(),
                          [](float v) { return std::isfinite(v); }))
             throw InputError(image.name + ": channel " + pair.name + " has no finite value");
-    comparison.identical = all_equal(pairs);
+    comparison.equal = all_equal(pairs);
+    comparison.others = compare_other_channels(image.image, reference.image, comparison.channels,
+                                               options.layer, options.left_out_layers);
     comparison.metrics = compute_metrics(pairs, comparison.width, options.epsilon);
     comparison.flip = flip_figures(pairs, comparison.non_finite, options.layer, comparison.width,
                                    comparison.height, options.pixels_per_degree);

@@ -4,6 +4,7 @@
 #include "host/image/flip.h"
 #include "host/image/image.h"
 #include "host/image/metrics.h"
+#include "host/image/other_channels.h"
 #include "host/image/z_test.h"
 
 #include <optional>
@@ -28,6 +29,7 @@ struct ComparisonOptions {
     std::string layer;     ///< "" is the main layer
     double epsilon = 0.01; ///< of relMSE
     double pixels_per_degree = flip_default_pixels_per_degree;
+    std::vector<std::string> left_out_layers{}; ///< of which nothing is compared
 };
 
 struct FlipFigures {
@@ -36,9 +38,11 @@ struct FlipFigures {
 
 struct Comparison {
     int width = 0, height = 0;
-    std::vector<std::string> channels;
-    NonFinite non_finite;
-    bool identical = false; ///< every value the same (NaN equals NaN)
+    std::vector<std::string> channels; ///< that the figures are of
+    NonFinite non_finite;              ///< in those
+    bool equal = false;                ///< every value of those the same (NaN equals NaN)
+    OtherChannels others;              ///< all that the images hold beside those
+    bool identical() const { return equal && others.all_equal() && others.none_missing(); }
     Metrics metrics;
     std::optional<FlipFigures> flip; ///< absent without R, G, B, or where a value is not finite
     std::optional<ZTest> z_test;

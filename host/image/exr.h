@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/image/output.h"
 #include "host/scene/scene.h"
 
 #include <cstddef>
@@ -25,15 +26,15 @@ Image parse_exr(std::string_view bytes, const std::string& name);
 
 struct ExrOptions {
     ComponentFormat component = ComponentFormat::float32;
+    Existing existing = Existing::replace; ///< what check_output has asked for
 };
 
 /// Writes scanlines, ZIP compressed, as linear values with Rec. 709 primaries stated. The file
-/// appears whole or not at all, and replaces an older one (check_output is what asks for --force,
-/// before the work and not after it). Returns how many finite values the component format could not
-/// hold (float16: beyond 65504, stored as infinity; uint32: rounded to the nearest integer, outside
-/// its range or not finite, stored as the nearest end, NaN as 0): the caller should say so if not
-/// zero. An int64 beyond 32 bits is stored as its decimal digits, since EXR has no wider integer.
-/// Throws InputError where the folder or the disk refuses.
+/// appears whole or not at all, as PendingFile says. Returns how many finite values the component
+/// format could not hold (float16: beyond 65504, stored as infinity; uint32: rounded to the nearest
+/// integer, outside its range or not finite, stored as the nearest end, NaN as 0): the caller
+/// should say so if not zero. An int64 beyond 32 bits is stored as its decimal digits, since EXR
+/// has no wider integer. Throws OutputError where the folder or the disk refuses.
 [[nodiscard]] std::size_t write_exr(const std::string& file, const Image& image,
                                     const ExrOptions& options = {});
 

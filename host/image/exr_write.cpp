@@ -1,7 +1,6 @@
 // Writing an Image as an OpenEXR file, a band of rows at a time.
 #include "host/error.h"
 #include "host/image/exr.h"
-#include "host/image/output.h"
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
@@ -134,13 +133,15 @@ std::size_t write_rows(Imf::OutputFile& output, const Image& image, Imf::PixelTy
     return misfits;
 }
 
-std::size_t write_stream(const std::string& temporary, const Image& image, Imf::PixelType type) {
+/// `file`: its name in messages.
+std::size_t write_stream(const std::string& temporary, const std::string& file, const Image& image,
+                         Imf::PixelType type) {
     const Imf::Header header = make_header(image, type);
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-    if (!stream) throw InputError(std::strerror(errno));
+    if (!stream) throw std::runtime_error(std::strerror(errno));
     std::size_t misfits = 0;
     {
-        Imf::StdOFStream sink(stream, temporary.c_str());
+        Imf::StdOFStream sink(stream, file.c_str());
         const int threads = static_cast<int>(
             tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
         Imf::setGlobalThreadCount(threads);
@@ -148,7 +149,7 @@ std::size_t write_stream(const std::string& temporary, const Image& image, Imf::
         misfits = write_rows(output, image, type);
     } // writes the line offset table and hides any failure to do so, hence the check below
     stream.close();
-    if (!stream) throw InputError(std::strerror(errno));
+    if (!stream) throw std::runtime_error(std::strerror(errno));
     return misfits;
 }
 
@@ -156,14 +157,15 @@ std::size_t write_stream(const std::string& temporary, const Image& image, Imf::
 
 std::size_t write_exr(const std::string& file, const Image& image, const ExrOptions& options) {
     check_image(image);
-    PendingFile pending(file);
+    PendingFile pending(file, options.existing);
     std::size_t misfits = 0;
     try {
-        misfits = write_stream(pending.temporary_name(), image, pixel_type(options.component));
+        misfits =
+            write_stream(pending.temporary_name(), file, image, pixel_type(options.component));
     } catch (const std::invalid_argument&) {
         throw; // a mistake of the caller, not of the disk
     } catch (const std::exception& error) {
-        throw InputError(file + ": cannot write: " + error.what());
+        throw OutputError(file + ": cannot write: " + error.what());
     }
     pending.commit();
     return misfits;

@@ -3,10 +3,15 @@
 
 #include "host/image/comparison.h"
 
+#include <array>
+
 namespace parhelion {
 
 /// What `compare --variance` takes in place of a file.
 inline constexpr const char* own_variance = "own";
+
+/// The layers that it takes.
+inline constexpr std::array own_variance_layers{"variance", "samples"};
 
 /// The variance of image - reference in each pixel, named as the channels it is of: R, G and B of
 /// the layer `variance` (that of one sample) over samples.N, of the image, and of the reference

@@ -2,7 +2,6 @@
 #include "host/image/png.h"
 
 #include "host/error.h"
-#include "host/image/output.h"
 #include "host/image/srgb.h"
 
 #include <png.h>
@@ -68,10 +67,10 @@ std::size_t tone_map(const PreviewSource& source, std::size_t count, double expo
 }
 
 void write_bytes(const std::string& file, const Image& image,
-                 const std::vector<std::uint8_t>& bytes) {
-    PendingFile pending(file);
+                 const std::vector<std::uint8_t>& bytes, Existing existing) {
+    PendingFile pending(file, existing);
     std::FILE* stream = std::fopen(pending.temporary_name().c_str(), "wb");
-    if (!stream) throw InputError(file + ": cannot write: " + std::strerror(errno));
+    if (!stream) throw OutputError(file + ": cannot write: " + std::strerror(errno));
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     png.width = static_cast<png_uint_32>(image.width);
@@ -81,19 +80,20 @@ void write_bytes(const std::string& file, const Image& image,
     const std::string message = png.message;
     png_image_free(&png);
     const bool closed = std::fclose(stream) == 0;
-    if (!written) throw InputError(file + ": cannot write: " + message);
-    if (!closed) throw InputError(file + ": cannot write: " + std::strerror(errno));
+    if (!written) throw OutputError(file + ": cannot write: " + message);
+    if (!closed) throw OutputError(file + ": cannot write: " + std::strerror(errno));
     pending.commit();
 }
 
 } // namespace
 
-std::size_t write_png(const std::string& file, const Image& image, double exposure) {
+std::size_t write_png(const std::string& file, const Image& image, double exposure,
+                      Existing existing) {
     if (!std::isfinite(exposure)) throw std::invalid_argument("exposure must be finite");
     const PreviewSource source = preview_source(file, image);
     std::vector<std::uint8_t> bytes(3 * image.pixel_count());
     const std::size_t not_finite = tone_map(source, image.pixel_count(), exposure, bytes);
-    write_bytes(file, image, bytes);
+    write_bytes(file, image, bytes, existing);
     return not_finite;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/image/output.h"
 
 #include <cstddef>
 #include <string>
@@ -12,10 +13,10 @@ namespace parhelion {
 /// 2^exposure, cut off at 0 and 1, then the sRGB transfer function. No filmic curve, so that a
 /// value below 1 can be read back from the preview, as in most renderers. Alpha is not used: the
 /// picture is over black. A pixel that is not finite becomes magenta.
-/// The file appears whole or not at all and replaces an older one (see check_output).
-/// Returns the number of pixels that are not finite. Throws InputError where the folder or the disk
-/// refuses, or the image has none of these channels.
+/// The file appears whole or not at all, as PendingFile says. Returns the number of pixels that are
+/// not finite. Throws OutputError where the folder or the disk refuses, InputError where the image
+/// has none of these channels.
 [[nodiscard]] std::size_t write_png(const std::string& file, const Image& image,
-                                    double exposure = 0.0);
+                                    double exposure = 0.0, Existing existing = Existing::replace);
 
 } // namespace parhelion

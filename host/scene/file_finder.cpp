@@ -54,7 +54,9 @@ fs::path FileFinder::find(const std::string& name, const SourceLocation& place,
 }
 
 fs::path FileFinder::file(const std::string& name, const SourceLocation& place) const {
-    return find(name, place, false);
+    fs::path path = find(name, place, false);
+    found_.push_back(path.string());
+    return path;
 }
 
 void FileFinder::add_folder(const std::string& name, const SourceLocation& place) {

@@ -20,6 +20,9 @@ public:
     /// Throws InputError when there is none, or when it leaves the scene's folder without leave.
     std::filesystem::path file(const std::string& name, const SourceLocation& place) const;
 
+    /// What `file` has found so far.
+    const std::vector<std::string>& found() const { return found_; }
+
     /// Adds a folder to look in; throws like `file`.
     void add_folder(const std::string& name, const SourceLocation& place);
 
@@ -31,6 +34,7 @@ private:
     std::filesystem::path scene_root_; ///< scene_folder_ with links resolved
     std::vector<std::filesystem::path> folders_;
     bool allow_outside_;
+    mutable std::vector<std::string> found_;
 };
 
 /// The whole file; throws InputError naming `path` when it cannot be read or exceeds `max_bytes`.

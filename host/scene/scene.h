@@ -269,6 +269,7 @@ struct Sampler {
 
 struct Scene {
     std::string file;
+    std::vector<std::string> files; ///< that it was read from beside that one
     std::vector<Material> materials;
     std::vector<Shape> shapes;
     std::vector<Emitter> emitters; ///< all but area emitters, which stand with their shapes

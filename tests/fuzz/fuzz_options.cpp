@@ -6,23 +6,9 @@
 #include "property.h"
 #include "targets.h"
 
-#include <iostream>
-
 namespace parhelion::fuzz {
 
 namespace {
-
-/// Help and versions are printed; nobody reads them here.
-class QuietOutput {
-public:
-    QuietOutput() : buffer_(std::cout.rdbuf(nullptr)) {}
-    ~QuietOutput() { std::cout.rdbuf(buffer_); }
-    QuietOutput(const QuietOutput&) = delete;
-    QuietOutput& operator=(const QuietOutput&) = delete;
-
-private:
-    std::streambuf* buffer_;
-};
 
 std::vector<std::string> lines_of(std::string_view text) {
     std::vector<std::string> lines;
@@ -88,7 +74,6 @@ private:
 
 int fuzz_options(const std::uint8_t* data, std::size_t size) {
     static Commands commands;
-    const QuietOutput quiet;
     return answer_or_refusal([&] { commands.run(as_text(data, size)); });
 }
 

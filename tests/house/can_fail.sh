@@ -71,6 +71,9 @@ must_find files "opens with a comment" 'int x;' host/new.cpp
 must_find files "opens with a comment" 'int x;' kernels/new.cl
 must_find files "opens with a comment" 'set -e' tests/new.sh
 must_find files "at most 450" "$(printf '//\\n%.0s' {1..450})" host/new.cpp
+must_find files "standard streams" 'fmt::print(stderr, "x");' host/scene/code.cpp
+must_find files "standard streams" 'fmt::print("x");' host/bvh/code.cpp
+must_find files "standard streams" 'std::cout << 1;' host/cl/code.cpp
 must_find faults "applies" 'Row: x\n--- a/kernels/shade.cl\n+++ b/kernels/shade.cl\n@@ -1 +1 @@\n-not there\n+fault' tests/mutations/new.patch
 must_find faults "names the row" '--- a/kernels/shade.cl\n+++ b/kernels/shade.cl\n@@ -1 +1 @@\n-// stage\n+fault' tests/mutations/new.patch
 echo "$failures offences were not found"

@@ -34,7 +34,7 @@ def render(program, scene, out, spp, *options):
 
 
 def compare(program, a, b):
-    run = subprocess.run([program, "compare", a, b, "--json"], capture_output=True, text=True)
+    run = subprocess.run([program, "compare", a, b, "--json", "--common"], capture_output=True, text=True)
     if run.returncode > 1:
         sys.exit(run.stderr)
     return json.loads(run.stdout)

@@ -10,10 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <random>
 #include <sstream>
+#include <tuple>
 
 using namespace parhelion;
 using namespace image_test;
@@ -36,23 +36,28 @@ std::string store(const TemporaryFolder& folder, const std::string& name, const 
     return folder.file(name);
 }
 
-/// Runs the program's command line.
+/// Runs the program's command line; nothing is said of what is refused.
 int run(std::vector<std::string> arguments) {
+    CompareOptions options;
+    std::ostringstream text;
     CommandLine command_line;
-    command_line.subcommands = {compare_subcommand()};
+    command_line.subcommands = {{.name = "compare",
+                                 .options = compare_options(options),
+                                 .run = [&] { return run_compare(options, text); }}};
     arguments.insert(arguments.begin(), "compare");
-    std::ostringstream swallowed;
-    std::streambuf* const terminal = std::cout.rdbuf(swallowed.rdbuf());
-    int code = -1;
     try {
-        code = run_command_line(command_line, arguments);
+        return run_command_line(command_line, arguments);
     } catch (const InputError& error) {
-        code = static_cast<int>(ExitCode::bad_input);
         CHECK(std::string(error.what()).find('\n') == std::string::npos);
-        CHECK(swallowed.str().empty());
+        CHECK(text.str().empty());
+        return static_cast<int>(ExitCode::bad_input);
     }
-    std::cout.rdbuf(terminal);
-    return code;
+}
+
+std::string text_report(const CompareOptions& options, int expected_code) {
+    std::ostringstream out;
+    CHECK(run_compare(options, out) == expected_code);
+    return out.str();
 }
 
 nlohmann::json report(CompareOptions options, int expected_code) {
@@ -183,15 +188,100 @@ TEST_CASE("compare: alpha and AOV layers") {
     other.channels[5].values[0] = 0.0f; // albedo.R
     other.channels[4].values[0] = 0.0f; // Z, no colour
     const std::string a = store(folder, "a.exr", image), b = store(folder, "b.exr", other);
-    const nlohmann::json main = report(compare_options(a, b), 0);
-    CHECK(main.at("identical") == true);
+    const nlohmann::json main = report(compare_options(a, b), 1);
+    CHECK(main.at("identical") == false);
     CHECK(main.at("channels").size() == 4);
+    CHECK(main.at("max_error").at("value") == 0.0);
+    CHECK(main.at("other_channels").size() == 4); // Z, albedo.R, albedo.G, albedo.B
     CompareOptions options = compare_options(a, b);
     options.figures.layer = "albedo";
     const nlohmann::json layer = report(options, 0);
     CHECK(layer.at("max_error").at("channel") == "albedo.R");
     CHECK(layer.at("max_error").at("value") == 0.5);
     CHECK(!layer.at("flip").is_null());
+}
+
+TEST_CASE("compare: a channel that one image lacks is a difference") {
+    const TemporaryFolder folder;
+    Image rgb = rgb_image(1, 2, 3), rg = rgb, rgba = rgb, layers = rgb;
+    rg.channels.pop_back();
+    add_channel(rgba, "A", std::vector<float>(edge * edge, 1.0f));
+    add_channel(layers, "depth.T", std::vector<float>(edge * edge, 1.0f));
+    const std::string full = store(folder, "rgb.exr", rgb);
+    for (const auto& [name, image, missing] :
+         {std::tuple{"rg.exr", &rg, "B"}, std::tuple{"rgba.exr", &rgba, "A"},
+          std::tuple{"layers.exr", &layers, "depth.T"}}) {
+        const std::string other = store(folder, name, *image);
+        for (const auto& [a, b] : {std::pair{full, other}, std::pair{other, full}}) {
+            CHECK(run({a, b}) == 1);
+            CHECK(run({a, b, "--rmse", "1"}) == 1);
+            CHECK(run({a, b, "--common"}) == 0);
+            CHECK(run({a, b, "--common", "--max", "0"}) == 0);
+            const bool first_has_it = (a == full) == (image == &rg);
+            const nlohmann::json json = report(compare_options(a, b), 1);
+            CHECK(json.at("identical") == false);
+            CHECK(json.at("pass") == false);
+            CHECK(json.at(first_has_it ? "only_in_image" : "only_in_reference") ==
+                  nlohmann::json{missing});
+            CHECK(json.at(first_has_it ? "only_in_reference" : "only_in_image").empty());
+            const std::string text = text_report(compare_options(a, b), 1);
+            CHECK_THAT(text, !Catch::Contains("the same"));
+            CHECK_THAT(text, Catch::Contains(first_has_it ? "only in A" : "only in B"));
+        }
+        CHECK(run({other, other, "--max", "0"}) == 0);
+    }
+}
+
+TEST_CASE("compare: layers that both images have are compared, and others are named") {
+    const TemporaryFolder folder;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    Image image = rgb_image(1, 1, 1);
+    add_rgb_layer(image, "albedo", std::vector<float>(3 * edge * edge, 0.5f));
+    add_channel(image, "depth.T", std::vector<float>(edge * edge, nan)); // nowhere anything
+    Image other = image;
+    const std::string a = store(folder, "a.exr", image);
+    CHECK(run({a, a}) == 0);
+    CHECK(report(compare_options(a, a), 0).at("identical") == true);
+    CHECK_THAT(text_report(compare_options(a, a), 0), Catch::Contains("every value is the same"));
+    other.channels[4].values[2 * edge + 3] = 0.25f; // albedo.G
+    const std::string b = store(folder, "b.exr", other);
+    CHECK(run({a, b}) == 1);
+    CHECK(run({a, b, "--max", "0.2499"}) == 1);
+    CHECK(run({a, b, "--layer", "depth"}) == 2); // no finite value
+    const std::string text = text_report(compare_options(a, b), 1);
+    CHECK_THAT(text, !Catch::Contains("every value"));
+    CHECK_THAT(text, Catch::Contains("1 values differ, largest error 0.25 at 3,2"));
+    // Where the figures show a difference themselves, limits judge them.
+    other.channels[0].values[0] = 1.5f; // R
+    const std::string c = store(folder, "c.exr", other);
+    CHECK(run({a, c}) == 0);
+    CHECK(run({a, c, "--max", "0.5"}) == 0);
+    CHECK(run({a, c, "--max", "0.4999"}) == 1);
+    other.channels[5].values[0] = 2.5f; // albedo.B
+    const std::string d = store(folder, "d.exr", other);
+    CHECK(run({a, d, "--max", "0.5"}) == 1);
+    CHECK(run({a, d, "--max", "2"}) == 0);
+    CHECK(run({a, d, "--rmse", "0.1"}) == 0);
+    other.channels[6].values[0] = 0.0f; // depth.T: a number in the place of a NaN
+    const std::string e = store(folder, "e.exr", other);
+    CHECK(run({a, e, "--max", "1e30"}) == 1);
+    CompareOptions layer = compare_options(a, e);
+    layer.figures.layer = "albedo";
+    const nlohmann::json alone = report(layer, 0);
+    CHECK(alone.at("not_compared") == nlohmann::json{"B", "G", "R", "depth.T"});
+    CHECK(alone.at("other_channels").empty());
+}
+
+TEST_CASE("compare: layers that the z-test takes its variances from are no images to compare") {
+    const TemporaryFolder folder;
+    Image image = rgb_image(1, 1, 1), truth = image;
+    add_rgb_layer(image, "variance", std::vector<float>(3 * edge * edge, 0.5f));
+    add_channel(image, "samples.N", std::vector<float>(edge * edge, 16.0f));
+    const std::string a = store(folder, "a.exr", image), b = store(folder, "b.exr", truth);
+    CHECK(run({a, b, "--variance", "own"}) == 0);
+    CHECK(run({a, b}) == 1);
+    add_channel(image, "depth.T", std::vector<float>(edge * edge, 1.0f));
+    CHECK(run({store(folder, "c.exr", image), b, "--variance", "own"}) == 1);
 }
 
 TEST_CASE("compare: the z-tests decide the exit code") {

@@ -107,13 +107,13 @@ TEST_CASE("Output: a full disk leaves neither half a file nor a temporary, and k
         };
         {
             const FullDisk disk(10000);
-            CHECK_THAT(refusal(write), Catch::Contains(name + ": cannot write"));
+            CHECK_THAT(refusal<OutputError>(write), Catch::Contains(name + ": cannot write"));
         }
         CHECK_FALSE(fs::exists(file));
         write_bytes(file, {'o', 'l', 'd'});
         {
             const FullDisk disk(10000);
-            refusal(write);
+            refusal<OutputError>(write);
         }
         CHECK(read_bytes(file) == std::vector<char>{'o', 'l', 'd'});
         CHECK(folder.entries() == 1);
@@ -131,7 +131,7 @@ TEST_CASE("Output: a disk that fills on the last bytes is noticed") {
     const auto size = fs::file_size(folder.file("whole.exr"));
     for (const rlim_t missing : {1, 5000}) {
         const FullDisk disk(size - missing);
-        refusal([&] { return write_exr(folder.file("a.exr"), image); });
+        refusal<OutputError>([&] { return write_exr(folder.file("a.exr"), image); });
     }
     CHECK(folder.entries() == 1);
 }
@@ -139,8 +139,8 @@ TEST_CASE("Output: a disk that fills on the last bytes is noticed") {
 TEST_CASE("Output: a missing folder is an error of the writers as well") {
     const TemporaryFolder folder;
     const Image image = noisy_image(2);
-    refusal([&] { return write_exr(folder.file("no/a.exr"), image); });
-    refusal([&] { return write_png(folder.file("no/a.png"), image); });
+    refusal<OutputError>([&] { return write_exr(folder.file("no/a.exr"), image); });
+    refusal<OutputError>([&] { return write_png(folder.file("no/a.png"), image); });
     CHECK(folder.entries() == 0);
 }
 

@@ -83,13 +83,13 @@ inline std::vector<std::string> files_below(const std::string& folder,
     return files;
 }
 
-/// The message of the InputError a call throws; fails the test where it throws none, or one that
-/// is not a single line.
-template<class Call>
+/// The message of the error a call throws; fails the test where it throws none, or one that is not
+/// a single line.
+template<class Error = parhelion::InputError, class Call>
 std::string refusal(Call&& call) {
     try {
         call();
-    } catch (const parhelion::InputError& error) {
+    } catch (const Error& error) {
         const std::string message = error.what();
         CHECK(!message.empty());
         CHECK(message.find('\n') == std::string::npos);

@@ -160,6 +160,7 @@ Scene SceneBuilder::build(const std::string& file) {
     if (!sensor_) refuse({file, 0}, "the scene has no <sensor>");
     if (!integrator_)
         scene_.notes.push_back(file + ": the scene has no <integrator>; \"path\" is used");
+    scene_.files = document_.files.found();
     return std::move(scene_);
 }
 
