@@ -135,9 +135,10 @@ glm::dmat3 normal_matrix(const glm::dmat4& to_world) {
 
 Mesh make_mesh(MeshData data, const MeshOptions& options, const SourceLocation& place,
                std::vector<std::string>& notes) {
-    if (data.triangles.empty()) refuse(place, "the mesh holds no triangle");
     for (const std::string& note : data.notes)
         notes.push_back(place.to_string() + ": " + note);
+    if (data.triangles.empty())
+        notes.push_back(place.to_string() + ": the mesh holds no triangle; it is not drawn");
     Mesh mesh{std::move(data.positions), {}, std::move(data.uvs), std::move(data.triangles)};
     for (glm::dvec3& p : mesh.positions) {
         p = glm::dvec3(options.to_world * glm::dvec4(p, 1.0));

@@ -10,8 +10,9 @@
 
 namespace parhelion {
 
-/// Object space. `normals` and `uvs` are empty or as long as `positions`; a zero normal says that
-/// the file has none for that vertex. Indices are within range.
+/// Object space, as mesh_builder.h leaves it: numbers are finite, every vertex is used. `normals`
+/// and `uvs` are empty or as long as `positions`; a zero normal says that the file has none for
+/// that vertex. Indices are within range.
 struct MeshData {
     std::vector<glm::dvec3> positions;
     std::vector<glm::dvec3> normals;
@@ -28,8 +29,8 @@ struct MeshOptions {
 
 /// Moves the mesh to world space. Without vertex normals in the file they are computed, weighted by
 /// the angle at the vertex (Thuermer and Wuethrich 1998), unless `face_normals`. Where the file has
-/// vertex normals they decide which side of a triangle is its front. Throws InputError at `place`
-/// for coordinates that overflow and meshes without a triangle; adds to `notes`.
+/// vertex normals they decide which side of a triangle is its front. A mesh without a triangle
+/// stays one. Throws InputError at `place` for coordinates that overflow; adds to `notes`.
 Mesh make_mesh(MeshData data, const MeshOptions& options, const SourceLocation& place,
                std::vector<std::string>& notes);
 

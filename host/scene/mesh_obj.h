@@ -8,9 +8,10 @@
 
 namespace parhelion {
 
-/// All faces of the file as one mesh; polygons become fans around their first corner. `flip_v`
-/// turns the texture's v into 1 - v. Materials, groups, lines and points are not read.
-/// Throws InputError "<path>:<line>: ..." for what cannot be read, `place` standing for the asker.
+/// All faces of the file as one mesh, cut into triangles as polygon.h says. `flip_v` turns the
+/// texture's v into 1 - v. Materials and groups are not read, lines and points noted;
+/// mesh_builder.h and obj_keywords.h say what is left out and what refused. Throws InputError
+/// "<path>:<line>: ..." for what cannot be read, `place` standing for the asker.
 MeshData load_obj(const std::filesystem::path& path, bool flip_v, const SourceLocation& place);
 
 /// The same of a text at hand, called `name` in messages.

@@ -4,16 +4,16 @@
 // precision, writes out of bounds on files made to do so, and takes misread data for a mesh.
 #include "host/scene/mesh_ply.h"
 
+#include "host/scene/data_text.h"
 #include "host/scene/file_finder.h"
-#include "host/scene/ply_header.h"
+#include "host/scene/mesh_builder.h"
+#include "host/scene/ply_data.h"
 #include "host/scene/text.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <optional>
+#include <utility>
 
 namespace parhelion {
 
@@ -21,99 +21,12 @@ namespace {
 
 constexpr std::size_t max_file_bytes = std::size_t(4) << 30;
 
-/// One number after the other from the data of a PLY file. Every PLY type fits a double exactly.
-class PlyData {
-public:
-    PlyData(std::string_view file, const PlyHeader& header, const SourceLocation& place)
-        : file_(file), offset_(header.data_start), encoding_(header.encoding), place_(place) {
-        place_.line = encoding_ == PlyEncoding::ascii ? header.lines + 1 : 0;
-    }
-
-    double next(PlyType type) {
-        return encoding_ == PlyEncoding::ascii ? next_word() : next_binary(type);
-    }
-
-    bool has_more() const {
-        return encoding_ == PlyEncoding::ascii
-                   ? file_.find_first_not_of(" \t\r\n", offset_) != file_.npos
-                   : bytes_left() > 0;
-    }
-    std::size_t bytes_left() const { return file_.size() - offset_; }
-    const SourceLocation& place() const { return place_; }
-
-private:
-    double next_word();
-    double next_binary(PlyType type);
-
-    template<typename T>
-    static double as_double(const std::array<char, 8>& bytes) {
-        T value;
-        std::memcpy(&value, bytes.data(), sizeof value);
-        return static_cast<double>(value);
-    }
-
-    std::string_view file_;
-    std::size_t offset_;
-    PlyEncoding encoding_;
-    SourceLocation place_;
-};
-
-double PlyData::next_word() {
-    constexpr std::string_view blanks = " \t\r\n";
-    const std::size_t start = std::min(file_.find_first_not_of(blanks, offset_), file_.size());
-    place_.line +=
-        static_cast<int>(std::count(file_.begin() + static_cast<std::ptrdiff_t>(offset_),
-                                    file_.begin() + static_cast<std::ptrdiff_t>(start), '\n'));
-    offset_ = std::min(file_.find_first_of(blanks, start), file_.size());
-    if (start == offset_) refuse(place_, "the PLY file ends too early");
-    const std::string_view word = file_.substr(start, offset_ - start);
-    const std::optional<double> value = parse_number(word);
-    if (!value) refuse(place_, in_quotes(word) + " is not a finite number");
-    return *value;
-}
-
-double PlyData::next_binary(PlyType type) {
-    const std::size_t size = ply_type_size(type);
-    if (bytes_left() < size) refuse(place_, "the PLY file ends too early");
-    std::array<char, 8> bytes{};
-    std::memcpy(bytes.data(), file_.data() + offset_, size);
-    offset_ += size;
-    const bool little = encoding_ == PlyEncoding::little_endian;
-    if (little != (std::endian::native == std::endian::little))
-        std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
-    switch (type) {
-    case PlyType::int8:
-        return as_double<std::int8_t>(bytes);
-    case PlyType::uint8:
-        return as_double<std::uint8_t>(bytes);
-    case PlyType::int16:
-        return as_double<std::int16_t>(bytes);
-    case PlyType::uint16:
-        return as_double<std::uint16_t>(bytes);
-    case PlyType::int32:
-        return as_double<std::int32_t>(bytes);
-    case PlyType::uint32:
-        return as_double<std::uint32_t>(bytes);
-    case PlyType::float32:
-        return as_double<float>(bytes);
-    case PlyType::float64:
-        return as_double<double>(bytes);
-    }
-    refuse(place_, "unknown PLY type");
-}
-
-double next_finite(PlyData& data, PlyType type) {
-    const double value = data.next(type);
-    if (!std::isfinite(value))
-        refuse(data.place(), "the PLY file holds a number that is not finite");
-    return value;
-}
-
 std::uint32_t list_length(PlyData& data, const PlyProperty& property) {
     const double count = data.next(property.count_type);
-    // An entry takes a byte or more, so a longer list cannot follow.
+    const std::size_t least =
+        data.encoding() == PlyEncoding::ascii ? 2 : ply_type_size(property.type);
     if (!(count >= 0.0) || count != std::floor(count) ||
-        count > static_cast<double>(data.bytes_left()))
+        count > static_cast<double>(data.most_entries(least)))
         refuse(data.place(), "a list claims " + std::to_string(count) + " entries");
     return static_cast<std::uint32_t>(count);
 }
@@ -141,86 +54,114 @@ int vertex_slot(const PlyProperty& property) {
     return -1;
 }
 
-/// All of the slots or none of them.
-bool has_slots(const std::vector<int>& slots, int first, int last, const SourceLocation& place) {
-    int found = 0;
-    for (int slot = first; slot <= last; ++slot) {
-        const auto times = std::count(slots.begin(), slots.end(), slot);
-        if (times > 1) refuse(place, "a vertex property is declared twice");
-        found += static_cast<int>(times);
-    }
-    if (found != 0 && found != last - first + 1)
-        refuse(place, "the vertices lack a component of position, normal or texture coordinate");
-    return found != 0;
-}
-
-void note_skipped(MeshData& mesh, const PlyElement& element, const std::string& property,
-                  const SourceLocation& place) {
-    mesh.notes.push_back(place.file + ": property " + in_quotes(property) + " of the " +
-                         element.name + " element is not used");
-}
-
-void read_vertices(PlyData& data, const PlyElement& element, bool flip_v, MeshData& mesh,
-                   const SourceLocation& place) {
+/// Where each property goes. Of a normal or a texture coordinate that is not whole, or stands there
+/// twice, what is too much goes nowhere.
+std::vector<int> vertex_slots(const PlyElement& element, const SourceLocation& place) {
     std::vector<int> slots;
     for (const PlyProperty& property : element.properties) {
-        slots.push_back(vertex_slot(property));
-        if (slots.back() < 0) note_skipped(mesh, element, property.name, place);
+        const int slot = vertex_slot(property);
+        const bool again = slot >= 0 && std::find(slots.begin(), slots.end(), slot) != slots.end();
+        if (again && slot <= 2) refuse(place, in_quotes(property.name) + " is declared twice");
+        slots.push_back(again ? -1 : slot);
     }
-    if (!has_slots(slots, 0, 2, place)) refuse(place, "the vertices have no x, y and z");
-    const bool normals = has_slots(slots, 3, 5, place);
-    const bool uvs = has_slots(slots, 6, 7, place);
-    if (element.count > data.bytes_left())
-        refuse(place, "the header claims " + std::to_string(element.count) +
-                          " vertices, more than the file can hold");
+    for (const auto& [first, last] : {std::pair(0, 2), std::pair(3, 5), std::pair(6, 7)}) {
+        const auto inside = [first = first, last = last](int slot) {
+            return slot >= first && slot <= last;
+        };
+        if (std::count_if(slots.begin(), slots.end(), inside) == last - first + 1) continue;
+        if (first == 0) refuse(place, "the vertices lack x, y or z");
+        std::replace_if(slots.begin(), slots.end(), inside, -1);
+    }
+    return slots;
+}
+
+bool has_slot(const std::vector<int>& slots, int slot) {
+    return std::find(slots.begin(), slots.end(), slot) != slots.end();
+}
+
+void note_skipped(MeshBuilder& builder, const PlyElement& element, const std::string& property) {
+    builder.note("property " + in_quotes(property) + " of the " + element.name +
+                 " element is not used");
+}
+
+/// A header that claims more entries than the file has bytes for costs no memory.
+void check_count(const PlyData& data, const PlyElement& element, const SourceLocation& place) {
+    if (element.count > data.most_entries(least_bytes(element, data.encoding())))
+        refuse(place, "the header claims " + std::to_string(element.count) + " entries of " +
+                          in_quotes(element.name) + ", more than the file can hold");
+}
+
+void read_vertices(PlyData& data, const PlyElement& element, bool flip_v, MeshBuilder& builder,
+                   const SourceLocation& place) {
+    const std::vector<int> slots = vertex_slots(element, place);
+    for (std::size_t k = 0; k < slots.size(); ++k)
+        if (slots[k] < 0) note_skipped(builder, element, element.properties[k].name);
+    const bool normals = has_slot(slots, 3), uvs = has_slot(slots, 6);
+    MeshData& mesh = builder.mesh;
+    mesh.positions.reserve(element.count);
+    if (normals) mesh.normals.reserve(element.count);
+    if (uvs) mesh.uvs.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
         std::array<double, 8> v{};
         for (std::size_t k = 0; k < slots.size(); ++k) {
             if (slots[k] < 0)
                 skip(data, element.properties[k]);
             else
-                v[static_cast<std::size_t>(slots[k])] =
-                    next_finite(data, element.properties[k].type);
+                v[static_cast<std::size_t>(slots[k])] = data.next(element.properties[k].type);
         }
         mesh.positions.emplace_back(v[0], v[1], v[2]);
-        if (normals) mesh.normals.emplace_back(v[3], v[4], v[5]);
+        if (normals) mesh.normals.push_back(normal_in_file({v[3], v[4], v[5]}));
         if (uvs) mesh.uvs.emplace_back(v[6], flip_v ? 1.0 - v[7] : v[7]);
     }
 }
 
-std::vector<double> read_list(PlyData& data, const PlyProperty& property) {
-    std::vector<double> list(list_length(data, property));
-    for (double& entry : list)
-        entry = data.next(property.type);
-    return list;
+void read_corners(PlyData& data, const PlyProperty& property, std::size_t vertices,
+                  std::vector<std::uint32_t>& corners) {
+    corners.clear();
+    const std::uint32_t count = list_length(data, property);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double c = data.next(property.type);
+        if (!(c >= 0.0) || c != std::floor(c) || c >= static_cast<double>(vertices))
+            refuse(data.place(),
+                   "a face uses vertex " + std::to_string(c) + " of " + std::to_string(vertices));
+        corners.push_back(static_cast<std::uint32_t>(c));
+    }
 }
 
-void add_polygon(const std::vector<double>& corners, MeshData& mesh, const PlyData& data) {
-    if (corners.size() < 3) refuse(data.place(), "a face needs at least three corners");
-    for (const double c : corners)
-        if (!(c >= 0.0) || c != std::floor(c) || c >= static_cast<double>(mesh.positions.size()))
-            refuse(data.place(), "a face uses vertex " + std::to_string(c) + " of " +
-                                     std::to_string(mesh.positions.size()));
-    for (std::size_t i = 2; i < corners.size(); ++i)
-        mesh.triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
-}
-
-void read_faces(PlyData& data, const PlyElement& element, MeshData& mesh,
+void read_faces(PlyData& data, const PlyElement& element, MeshBuilder& builder,
                 const SourceLocation& place) {
     const auto is_corners = [](const PlyProperty& p) {
         return p.list && (p.name == "vertex_indices" || p.name == "vertex_index");
     };
-    if (std::count_if(element.properties.begin(), element.properties.end(), is_corners) != 1)
+    const auto lists =
+        std::count_if(element.properties.begin(), element.properties.end(), is_corners);
+    if (lists != 1 && element.count > 0)
         refuse(place, "the faces need one list \"vertex_indices\" (or \"vertex_index\")");
     for (const PlyProperty& property : element.properties)
-        if (!is_corners(property)) note_skipped(mesh, element, property.name, place);
+        if (!is_corners(property)) note_skipped(builder, element, property.name);
+    std::vector<std::uint32_t> corners;
     for (std::uint64_t i = 0; i < element.count; ++i)
         for (const PlyProperty& property : element.properties) {
-            if (is_corners(property))
-                add_polygon(read_list(data, property), mesh, data);
-            else
+            if (is_corners(property)) {
+                read_corners(data, property, builder.mesh.positions.size(), corners);
+                builder.add_face(corners, data.place());
+            } else {
                 skip(data, property);
+            }
         }
+}
+
+/// Elements of other names that hold surfaces: leaving them out would lose geometry.
+void refuse_geometry(const PlyElement& element, const SourceLocation& place) {
+    constexpr std::array<std::string_view, 4> surfaces = {"tristrips", "tristrip", "trifan",
+                                                          "range_grid"};
+    const std::string lower = lower_case(element.name);
+    const bool misspelt = lower == "face" || lower == "vertex";
+    if (element.count > 0 &&
+        (misspelt || std::find(surfaces.begin(), surfaces.end(), lower) != surfaces.end()))
+        refuse(place, "element " + in_quotes(element.name) +
+                          " describes geometry that is not read (accepted: one \"vertex\" and "
+                          "then one \"face\")");
 }
 
 void skip_element(PlyData& data, const PlyElement& element) {
@@ -234,29 +175,33 @@ void skip_element(PlyData& data, const PlyElement& element) {
 
 MeshData parse_ply(std::string_view file, bool flip_v, const std::string& name) {
     const SourceLocation file_place{name, 0};
+    std::string converted;
+    if (is_utf16(file, file_place)) file = converted = ascii_of_utf16(file);
+    file = without_utf8_mark(file);
     const PlyHeader header = read_ply_header(file, name);
     PlyData data(file, header, file_place);
-    MeshData mesh;
+    MeshBuilder builder(name);
+    builder.note_count(
+        header.unknown_lines, "line of the header begins", "lines of the header begin",
+        " with no word of PLY files; not used (first: " + header.first_unknown + ")");
     bool vertices = false, faces = false;
     for (const PlyElement& element : header.elements) {
+        check_count(data, element, file_place);
         if (element.name == "vertex" && !vertices) {
-            read_vertices(data, element, flip_v, mesh, file_place);
+            read_vertices(data, element, flip_v, builder, file_place);
             vertices = true;
         } else if (element.name == "face" && !faces && vertices) {
-            read_faces(data, element, mesh, file_place);
+            read_faces(data, element, builder, file_place);
             faces = true;
-        } else if (element.name == "vertex" || element.name == "face") {
-            refuse(file_place, "the elements must be one \"vertex\" and then one \"face\"");
         } else {
+            refuse_geometry(element, file_place);
             skip_element(data, element);
-            mesh.notes.push_back(file_place.file + ": element " + in_quotes(element.name) +
-                                 " is not used");
+            builder.note("element " + in_quotes(element.name) + " is not used");
         }
     }
-    if (data.has_more())
-        mesh.notes.push_back(file_place.file + ": data after the last element is not used");
-    if (!faces) refuse(file_place, "the PLY file has no \"face\" element (points are not drawn)");
-    return mesh;
+    if (data.has_more()) builder.note("data after the last element is not used");
+    if (!faces) builder.note("there is no \"face\" element (points are not drawn)");
+    return std::move(builder).finish();
 }
 
 MeshData load_ply(const std::filesystem::path& path, bool flip_v, const SourceLocation& place) {

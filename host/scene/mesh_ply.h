@@ -10,8 +10,9 @@
 namespace parhelion {
 
 /// Positions, normals (nx ny nz) and texture coordinates (u v, s t, or texture_u texture_v) of the
-/// `vertex` element and the polygons of `face`, as fans around their first corner. Other properties
-/// are skipped with a note. `flip_v` turns v into 1 - v.
+/// `vertex` element and the polygons of `face`, cut into triangles as polygon.h says. Other
+/// properties are skipped with a note; mesh_builder.h says what else is left out and what refused.
+/// `flip_v` turns v into 1 - v.
 /// Throws InputError "<path>:<line>: ..." for what cannot be read, `place` standing for the asker.
 MeshData load_ply(const std::filesystem::path& path, bool flip_v, const SourceLocation& place);
 

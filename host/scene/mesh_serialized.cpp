@@ -2,12 +2,13 @@
 #include "host/scene/mesh_serialized.h"
 
 #include "host/scene/file_finder.h"
+#include "host/scene/mesh_builder.h"
 #include "host/scene/text.h"
 
 #include <zlib.h>
 
+#include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 namespace parhelion {
@@ -17,7 +18,10 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the format is little endian");
 
 constexpr std::size_t max_file_bytes = std::size_t(4) << 30;
-constexpr std::uint64_t max_items = std::uint64_t(1) << 27; ///< zeros deflate a thousandfold
+
+/// How much more than its compressed bytes a mesh may hold. Meshes deflate to a seventh at best (a
+/// tenth where they are made to), zeros to a thousandth; small ones may do as they like.
+constexpr std::uint64_t largest_ratio = 64, always_accepted = std::uint64_t(16) << 20;
 constexpr std::uint16_t magic = 0x041c;
 
 enum Flag : std::uint32_t {
@@ -27,6 +31,7 @@ enum Flag : std::uint32_t {
     face_normals = 0x0010,
     single_precision = 0x1000,
     double_precision = 0x2000,
+    known_flags = 0x301b,
 };
 
 /// Inflates a part of a file piece by piece, so that sizes in a damaged header cost no memory
@@ -60,6 +65,14 @@ public:
             out += written;
             bytes -= written;
         }
+    }
+
+    /// Whether the compressed data goes on.
+    bool has_more() {
+        Bytef next;
+        stream_.next_out = &next;
+        stream_.avail_out = 1;
+        return inflate(&stream_, Z_NO_FLUSH) >= Z_OK && stream_.avail_out == 0;
     }
 
     template<typename T>
@@ -114,35 +127,92 @@ std::size_t mesh_offset(std::string_view file, std::int64_t index, std::uint16_t
                         : read_at<std::uint32_t>(file, table_end - back, place);
 }
 
-template<int N>
-std::vector<glm::vec<N, double>> read_vectors(InflateStream& stream, std::uint64_t count,
-                                              bool doubles, const SourceLocation& place) {
-    std::vector<glm::vec<N, double>> result;
-    int filled = 0;
-    const auto take = [&](double v) {
-        if (!std::isfinite(v)) refuse(place, "a vertex holds a number that is not finite");
-        if (filled == 0) result.emplace_back(0.0);
-        result.back()[filled] = v;
-        filled = (filled + 1) % N;
-    };
-    if (doubles)
-        stream.numbers<double>(count * N, take);
-    else
-        stream.numbers<float>(count * N, take);
-    return result;
+/// What stands before the numbers of a mesh.
+struct MeshHeader {
+    std::uint32_t flags = 0;
+    std::uint64_t vertices = 0, triangles = 0;
+
+    bool has(Flag flag) const { return (flags & flag) != 0; }
+    std::size_t real_size() const { return has(double_precision) ? 8 : 4; }
+
+    /// What follows the header, infinite rather than too much for an integer.
+    double bytes() const {
+        const int reals =
+            3 + (has(has_normals) ? 3 : 0) + (has(has_uvs) ? 2 : 0) + (has(has_colors) ? 3 : 0);
+        return static_cast<double>(vertices) * static_cast<double>(real_size()) * reals +
+               static_cast<double>(triangles) * 12.0;
+    }
+};
+
+MeshHeader read_header(InflateStream& stream, std::uint16_t version, std::size_t compressed,
+                       const SourceLocation& place) {
+    MeshHeader header;
+    header.flags = stream.value<std::uint32_t>();
+    if (version == 4)
+        while (stream.value<char>() != '\0') {
+        } // the mesh's name
+    header.vertices = stream.value<std::uint64_t>();
+    header.triangles = stream.value<std::uint64_t>();
+    if (header.has(double_precision) == header.has(single_precision))
+        refuse(place, "the header must say single or double precision");
+    if (header.bytes() > static_cast<double>(largest_ratio * compressed + always_accepted))
+        refuse(place, "the mesh claims " + std::to_string(header.vertices) + " vertices and " +
+                          std::to_string(header.triangles) + " triangles in " +
+                          std::to_string(compressed) + " compressed bytes (accepted: " +
+                          std::to_string(largest_ratio) + " times the bytes)");
+    return header;
 }
 
-void read_triangles(InflateStream& stream, std::uint64_t count, MeshData& mesh,
-                    const SourceLocation& place) {
+/// `count` vectors, each handed to `take`.
+template<int N, typename Take>
+void read_vectors(InflateStream& stream, const MeshHeader& header, Take take) {
+    glm::vec<N, double> vector;
     int filled = 0;
-    stream.numbers<std::uint32_t>(count * 3, [&](std::uint32_t index) {
-        if (index >= mesh.positions.size())
-            refuse(place, "a triangle uses vertex " + std::to_string(index) + " of " +
-                              std::to_string(mesh.positions.size()));
-        if (filled == 0) mesh.triangles.emplace_back(0u);
-        mesh.triangles.back()[filled] = index;
+    const auto add = [&](double v) {
+        vector[filled] = v;
+        filled = (filled + 1) % N;
+        if (filled == 0) take(vector);
+    };
+    if (header.has(double_precision))
+        stream.numbers<double>(header.vertices * N, add);
+    else
+        stream.numbers<float>(header.vertices * N, add);
+}
+
+void read_mesh(InflateStream& stream, const MeshHeader& header, MeshBuilder& builder,
+               const SourceLocation& place) {
+    MeshData& mesh = builder.mesh;
+    mesh.positions.reserve(header.vertices);
+    read_vectors<3>(stream, header, [&](const glm::dvec3& p) { mesh.positions.push_back(p); });
+    if (header.has(has_normals)) {
+        mesh.normals.reserve(header.vertices);
+        read_vectors<3>(stream, header,
+                        [&](const glm::dvec3& n) { mesh.normals.push_back(normal_in_file(n)); });
+    }
+    if (header.has(has_uvs)) {
+        mesh.uvs.reserve(header.vertices);
+        read_vectors<2>(stream, header, [&](const glm::dvec2& uv) { mesh.uvs.push_back(uv); });
+    }
+    if (header.has(has_colors)) {
+        read_vectors<3>(stream, header, [](const glm::dvec3&) {});
+        builder.note("vertex colours are not used");
+    }
+    mesh.triangles.reserve(header.triangles);
+    std::array<std::uint32_t, 3> triangle{};
+    std::size_t filled = 0;
+    stream.numbers<std::uint32_t>(header.triangles * 3, [&](std::uint32_t index) {
+        triangle[filled] = index;
         filled = (filled + 1) % 3;
+        if (filled == 0) builder.add_face(triangle, place);
     });
+}
+
+/// What a file of another version may hold: said, since its numbers could stand elsewhere.
+void note_unknown(const MeshHeader& header, InflateStream& stream, MeshBuilder& builder) {
+    if ((header.flags & ~known_flags) != 0)
+        builder.note("flags " + std::to_string(header.flags & ~known_flags) +
+                     " of the mesh are not known and not used");
+    if (stream.has_more()) builder.note("data after the last triangle is not used");
 }
 
 } // namespace
@@ -159,31 +229,13 @@ SerializedMesh parse_serialized(std::string_view file, std::int64_t shape_index,
     const std::size_t start = mesh_offset(file, shape_index, version, file_place);
     if (read_at<std::uint16_t>(file, start, file_place) != magic || file.size() - start < 4)
         refuse(file_place, "the table of meshes is damaged");
-    InflateStream stream(file.substr(start + 4), file_place);
-    const auto flags = stream.value<std::uint32_t>();
-    if (version == 4)
-        while (stream.value<char>() != '\0') {
-        } // the mesh's name
-    const auto vertices = stream.value<std::uint64_t>();
-    const auto triangles = stream.value<std::uint64_t>();
-    if (vertices > max_items || triangles > max_items)
-        refuse(file_place, "the mesh claims " + std::to_string(vertices) + " vertices and " +
-                               std::to_string(triangles) + " triangles");
-    const bool doubles = (flags & double_precision) != 0;
-    if (doubles == ((flags & single_precision) != 0))
-        refuse(file_place, "the header must say single or double precision");
-    SerializedMesh result;
-    MeshData& mesh = result.mesh;
-    mesh.positions = read_vectors<3>(stream, vertices, doubles, file_place);
-    if (flags & has_normals) mesh.normals = read_vectors<3>(stream, vertices, doubles, file_place);
-    if (flags & has_uvs) mesh.uvs = read_vectors<2>(stream, vertices, doubles, file_place);
-    if (flags & has_colors) {
-        read_vectors<3>(stream, vertices, doubles, file_place);
-        mesh.notes.push_back(file_place.file + ": vertex colours are not used");
-    }
-    read_triangles(stream, triangles, mesh, file_place);
-    result.face_normals = (flags & face_normals) != 0;
-    return result;
+    const std::string_view compressed = file.substr(start + 4);
+    InflateStream stream(compressed, file_place);
+    const MeshHeader header = read_header(stream, version, compressed.size(), file_place);
+    MeshBuilder builder(name);
+    read_mesh(stream, header, builder, file_place);
+    note_unknown(header, stream, builder);
+    return {std::move(builder).finish(), header.has(face_normals)};
 }
 
 SerializedMesh load_serialized(const std::filesystem::path& path, std::int64_t shape_index,

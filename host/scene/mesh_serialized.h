@@ -14,7 +14,8 @@ struct SerializedMesh {
     bool face_normals = false; ///< the file asks for faceted shading
 };
 
-/// Mesh number `shape_index` (from 0) of the file. Throws InputError.
+/// Mesh number `shape_index` (from 0) of the file. A mesh that claims more than 16 MiB and 64 times
+/// its compressed bytes is refused before its memory is spent. Throws InputError.
 SerializedMesh load_serialized(const std::filesystem::path& path, std::int64_t shape_index,
                                const SourceLocation& place);
 

@@ -70,34 +70,83 @@ std::size_t ply_type_size(PlyType type) {
         ->size;
 }
 
-PlyHeader read_ply_header(std::string_view file, const std::string& name) {
-    PlyHeader header;
-    SourceLocation place{name, 0};
-    bool has_format = false;
-    for (std::size_t start = 0; start < file.size();) {
-        const std::size_t end = std::min(file.find('\n', start), file.size());
-        const Words words = split(file.substr(start, end - start), " \t\r");
-        start = end + 1;
-        const bool first = place.line++ == 0;
-        if (first && (words.size() != 1 || words[0] != "ply"))
-            refuse(place, "not a PLY file: it does not start with a line \"ply\"");
-        if (first || words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
-        if (words[0] == "format") {
-            header.encoding = encoding_of(words, place);
-            has_format = true;
-        } else if (words[0] == "element") {
-            header.elements.push_back(element_of(words, place));
-        } else if (words[0] == "property" && !header.elements.empty()) {
-            header.elements.back().properties.push_back(property_of(words, place));
-        } else if (words[0] == "end_header" && has_format) {
-            header.data_start = std::min(start, file.size());
-            header.lines = place.line;
-            return header;
-        } else {
-            refuse(place, "unexpected " + in_quotes(words[0]) + " in the header of a PLY file");
-        }
+std::size_t least_bytes(const PlyElement& element, PlyEncoding encoding) {
+    std::size_t bytes = 0;
+    for (const PlyProperty& property : element.properties) {
+        const PlyType type = property.list ? property.count_type : property.type;
+        bytes += encoding == PlyEncoding::ascii ? 2 : ply_type_size(type);
     }
-    refuse(place, "the header of the PLY file has no end");
+    return bytes;
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 4> keywords = {"format", "element", "property",
+                                                      "end_header"};
+
+/// Reads line after line.
+class HeaderReader {
+public:
+    explicit HeaderReader(const std::string& name) : place_{name, 0} {}
+
+    /// Whether the header goes on.
+    bool read(std::string_view line);
+    PlyHeader header;
+    const SourceLocation& place() const { return place_; }
+
+private:
+    void skip(std::string_view word);
+
+    SourceLocation place_;
+    bool has_format_ = false;
+};
+
+/// Programs write comments without the word "comment". What looks like a keyword is none of those.
+void HeaderReader::skip(std::string_view word) {
+    const std::string lower = lower_case(word);
+    if (std::find(keywords.begin(), keywords.end(), lower) != keywords.end())
+        refuse(place_, "unexpected " + in_quotes(word) + " in the header of a PLY file");
+    if (header.unknown_lines++ == 0)
+        header.first_unknown = in_quotes(word) + " in line " + std::to_string(place_.line);
+}
+
+bool HeaderReader::read(std::string_view line) {
+    const Words words = split(line, " \t\r");
+    const bool first = place_.line++ == 0;
+    if (first && (words.size() != 1 || words[0] != "ply"))
+        refuse(place_, "not a PLY file: it does not start with a line \"ply\"");
+    if (first || words.empty() || words[0] == "comment" || words[0] == "obj_info") return true;
+    if (words[0] == "format") {
+        header.encoding = encoding_of(words, place_);
+        has_format_ = true;
+    } else if (words[0] == "element") {
+        header.elements.push_back(element_of(words, place_));
+    } else if (words[0] == "property" && !header.elements.empty()) {
+        header.elements.back().properties.push_back(property_of(words, place_));
+    } else if (words[0] == "end_header" && has_format_) {
+        header.lines = place_.line;
+        return false;
+    } else {
+        skip(words[0]);
+    }
+    return true;
+}
+
+} // namespace
+
+PlyHeader read_ply_header(std::string_view file, const std::string& name) {
+    HeaderReader reader(name);
+    const std::size_t first_end = std::min(file.find_first_of("\r\n"), file.size());
+    const bool only_cr = file.substr(first_end, 1) == "\r" && file.substr(first_end + 1, 1) != "\n";
+    for (std::size_t start = 0; start < file.size();) {
+        const std::size_t end = std::min(file.find(only_cr ? '\r' : '\n', start), file.size());
+        const bool goes_on = reader.read(file.substr(start, end - start));
+        start = end + 1;
+        if (goes_on) continue;
+        reader.header.data_start = std::min(start, file.size());
+        return std::move(reader.header);
+    }
+    refuse(reader.place(), "the header of the PLY file has no end");
 }
 
 } // namespace parhelion

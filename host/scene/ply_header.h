@@ -31,11 +31,16 @@ struct PlyHeader {
     std::vector<PlyElement> elements;
     std::size_t data_start = 0; ///< byte after the line "end_header"
     int lines = 0;              ///< of the header
+    std::size_t unknown_lines = 0;
+    std::string first_unknown; ///< what they begin with, and where
 };
 
 std::size_t ply_type_size(PlyType type);
 
-/// Throws InputError with file and line.
+/// Bytes that an entry of `element` takes at least, in text with a blank after every number.
+std::size_t least_bytes(const PlyElement& element, PlyEncoding encoding);
+
+/// Lines end as the first one does: in LF, CR LF or CR. Throws InputError with file and line.
 PlyHeader read_ply_header(std::string_view file, const std::string& name);
 
 } // namespace parhelion

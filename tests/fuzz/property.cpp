@@ -31,7 +31,7 @@ void check_indices(const std::vector<glm::uvec3>& triangles, std::size_t vertice
 
 void check_mesh(const Mesh& mesh) {
     const std::size_t vertices = mesh.positions.size();
-    promise(!mesh.triangles.empty(), "there is a triangle");
+    promise(mesh.triangles.empty() == mesh.positions.empty(), "vertices are used");
     promise(all_finite(mesh.positions), "positions are finite");
     promise(mesh.normals.empty() || mesh.normals.size() == vertices, "a normal a vertex, or none");
     promise(mesh.uvs.empty() || mesh.uvs.size() == vertices, "a uv a vertex, or none");

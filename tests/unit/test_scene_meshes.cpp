@@ -1,15 +1,11 @@
 // Mesh files: OBJ, PLY and Mitsuba's serialized format, good ones and damaged ones.
-#include "test_scene_tools.h"
+#include "test_mesh_tools.h"
 
 #include "host/scene/mesh_obj.h"
 #include "host/scene/mesh_ply.h"
 #include "host/scene/mesh_serialized.h"
 
 #include <glm/geometric.hpp>
-#include <zlib.h>
-
-#include <bit>
-#include <cstring>
 
 using namespace parhelion;
 using namespace parhelion::test;
@@ -27,24 +23,6 @@ MeshData obj(const std::string& text, bool flip_v = true) {
 MeshData ply(const std::string& text, bool flip_v = false) {
     const SceneFolder folder;
     return load_ply(folder.write("a.ply", text), flip_v, asker);
-}
-
-template<typename Load>
-std::string refusal(Load load) {
-    try {
-        load();
-        return "";
-    } catch (const InputError& error) {
-        return error.what();
-    }
-}
-
-template<typename T>
-void put(std::string& bytes, T value, bool big_endian = false) {
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof value);
-    if (big_endian) std::reverse(raw, raw + sizeof raw);
-    bytes.append(raw, sizeof raw);
 }
 
 constexpr const char* ply_text = "ply\nformat ascii 1.0\ncomment made here\nelement vertex 4\n"
@@ -98,14 +76,7 @@ std::string serialized_mesh(std::uint32_t flags, std::uint16_t version, Real x,
             put(content, Real(1));
     for (const std::uint32_t i : {0u, 1u, last_index})
         put(content, i);
-    uLongf size = compressBound(content.size());
-    std::string packed(size, '\0');
-    compress(reinterpret_cast<Bytef*>(packed.data()), &size,
-             reinterpret_cast<const Bytef*>(content.data()), content.size());
-    std::string result;
-    put(result, std::uint16_t(0x041c));
-    put(result, version);
-    return result + packed.substr(0, size);
+    return serialized_content(content, version);
 }
 
 std::string serialized_file(const std::vector<std::string>& meshes, std::uint16_t version) {
@@ -140,9 +111,9 @@ TEST_CASE("scene meshes: OBJ corners share vertices by position, texture and nor
           glm::dvec2(1.0, 0.25));
 }
 
-TEST_CASE("scene meshes: OBJ polygons become fans, counted from the front or the back") {
-    const std::string points = "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\n";
-    const MeshData mesh = obj(points + "f 2 3 4 1\n"); // concave, and still a fan, as in Mitsuba
+TEST_CASE("scene meshes: OBJ polygons, counted from the front or the back") {
+    const std::string points = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\n";
+    const MeshData mesh = obj(points + "f 2 3 4 1\n"); // a fan around the first corner
     REQUIRE(mesh.triangles.size() == 2);
     CHECK(mesh.triangles[0] == glm::uvec3(0, 1, 2));
     CHECK(mesh.triangles[1] == glm::uvec3(0, 2, 3));
@@ -176,28 +147,20 @@ TEST_CASE("scene meshes: OBJ corners without normal get computed ones") {
 
 TEST_CASE("scene meshes: OBJ lines that cannot be read") {
     const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    std::string many = "f";
-    for (int i = 0; i < 256; ++i)
-        many += " 1";
     const std::pair<std::string, std::string> cases[] = {
-        {points + "f 1 2\n", "a.obj:4: a face of 2 corners"},
-        {points + "f 1 2 4\n", "vertex 4 of 3"},
+        {points + "f 1 2 4\n", "a.obj:4: a face uses vertex 4 of 3"},
         {points + "f 1 2 0\n", "a.obj:4: \"0\""},
         {points + "f 1 2 -4\n", "a.obj:4: \"-4\" counts back"},
         {points + "f 1 2 x\n", "a.obj:4: \"x\""},
-        {points + "f 1/ 2/ 3/\n", "a.obj:4: \"1/\""},
+        {points + "f /1 /1 /1\n", "a.obj:4: \"/1\""},
         {points + "f 1/1/1/1 2 3\n", "a.obj:4: \"1/1/1/1\""},
-        {points + "f 1//1 2//1 3//1\n", "normal 1 of 0"},
-        {points + "f 1/2 2/2 3/2\n", "texture vertex 2 of 0"},
-        {points + "vt 0\nf 1/-2 2/1 3/1\n", "a.obj:5: \"1/-2\" counts back"},
-        {points + "vn 0 0 0\nf 1//1 2//1 3//1\n", "vertex normal 1 is zero"},
-        {points + "f 1 2 99999999999\n", "a.obj:4: \"99999999999\""},
-        {points + many + "\n", "a.obj:4: a face of 256 corners"},
+        {points + "vn 0 0 1\nf 1//2 2//1 3//1\n", "a.obj:5: a face uses normal 2 of 1"},
+        {points + "vt 0\nf 1/2 2/2 3/2\n", "a.obj:5: a face uses texture vertex 2 of 1"},
+        {points + "vt 0\nf 1/-2 2/1 3/1\n", "a.obj:5: \"-2\" counts back"},
+        {points + "f 1 2 99999999999\n", "a.obj:4: a face uses vertex 99999999999 of 3"},
+        {points + "f 1 2 99999999999999999999\n", "a.obj:4: \"99999999999999999999\""},
         {"v 0 0\n", "a.obj:1"},
-        {"v 0 0 nan\n", "a.obj:1: \"nan\""},
-        {"v 0 0 1e999\n", "a.obj:1: \"1e999\""},
-        {"v 0 0 0E500000\n", "a.obj:1: \"0E500000\""}, // the library: 0 * infinity
-        {"v 0 0 0." + std::string(400, '0') + "1e400\n", "an exponent of 200"},
+        {"v 0 0 0,5\n", "a.obj:1: \"0,5\""},
         {"\nvn 0 a 1\n", "a.obj:2: \"a\""},
         {"vt x\n", "a.obj:1: \"x\""},
     };
@@ -209,13 +172,18 @@ TEST_CASE("scene meshes: OBJ lines that cannot be read") {
     }
 }
 
-TEST_CASE("scene meshes: a mesh without triangles is refused") {
+TEST_CASE("scene meshes: an empty mesh is noted among others, refused alone") {
     const SceneFolder folder;
     folder.write("a.obj", "v 0 0 0\np 1\n");
-    CHECK_THAT(refusal_of(folder.write("scene.xml",
-                                       scene_text("<shape type=\"obj\"><string name=\"filename\" "
-                                                  "value=\"a.obj\"/></shape>"))),
-               Contains("scene.xml:2") && Contains("no triangle"));
+    const std::string shape = "<shape type=\"obj\"><string name=\"filename\" value=\"a.obj\"/>"
+                              "<emitter type=\"area\"/></shape>";
+    CHECK_THAT(refusal_of(folder.write("scene.xml", scene_text(shape + shape))),
+               Contains("scene.xml:2") && Contains("no triangle") && Contains("points"));
+    const Scene scene =
+        load_scene(folder.write("scene.xml", scene_text(shape + "<shape type=\"sphere\"/>")));
+    CHECK(scene.shapes.size() == 2);
+    REQUIRE(scene.notes.size() == 2);
+    CHECK_THAT(scene.notes[1], Contains("scene.xml:2") && Contains("no triangle"));
 }
 
 TEST_CASE("scene meshes: PLY as text") {
@@ -279,18 +247,15 @@ TEST_CASE("scene meshes: PLY files that cannot be read") {
         {file(tri, points + "3 0 1 3\n"), "a.ply:13: a face uses vertex 3"},
         {file(tri, points + "3 0 1 -1\n"), "a.ply:13"},
         {file(tri, points + "3 0 1 1.5\n"), "a.ply:13"},
-        {file(tri, points + "2 0 1\n"), "three corners"},
         {file(tri, points + "-1 0 1\n"), "a list claims"},
         {file(tri, points + "200 0 1 2\n"), "a list claims"},
         {file(tri, points), "ends too early"},
         {file(tri, "0 0 0\n1 0 x\n"), "a.ply:11: \"x\""},
-        {file(tri, "0 0 nan\n"), "a.ply:10: \"nan\""},
-        {file("element vertex 3\n" + xyz, points), "face"},
+        {file(tri, "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"), "a.ply:13: a face uses vertex 0"},
         {file("element face 1\n" + corners, "3 0 1 2"), "\"vertex\" and then one \"face\""},
         {file("element vertex 9999999999\n" + xyz + "element face 1\n" + corners, points),
          "9999999999"},
         {file("element vertex 3\nproperty float x\nproperty float y\n", points), "lack"},
-        {file("element vertex 3\n" + xyz + "property float nx\n", points), "lack"},
         {file("element vertex 3\n" + xyz + "property float x\n", points), "twice"},
         {file("element vertex 3\n" + xyz + "element face 1\nproperty int a\n", points),
          "vertex_indices"},
@@ -329,8 +294,8 @@ TEST_CASE("scene meshes: damaged serialized files") {
     CHECK_THAT(refusal([&] { serialized(version); }), Contains("version 9"));
     CHECK_THAT(refusal([&] { serialized(serialized_mesh(0, 4, 0.1, 3)); }), Contains("vertex 3"));
     CHECK_THAT(refusal([&] { serialized(serialized_mesh(0, 4, 0.1, 2, std::uint64_t(1) << 40)); }),
-               Contains("vertices"));
-    CHECK_THAT(refusal([&] { serialized(serialized_mesh(0, 4, 0.1, 2, 100000000)); }),
+               Contains("1099511627776 vertices"));
+    CHECK_THAT(refusal([&] { serialized(serialized_mesh(0, 4, 0.1, 2, 1000)); }),
                Contains("ends too early"));
     CHECK_THAT(refusal([&] {
                    serialized(serialized_mesh(0, 4, std::numeric_limits<double>::quiet_NaN()));

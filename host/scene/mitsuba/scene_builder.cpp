@@ -6,6 +6,7 @@
 #include "host/scene/mitsuba/xml_file.h"
 #include "host/scene/text.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -150,6 +151,24 @@ void SceneBuilder::check_definition(const Child& child, const Object& object) {
                                    "sensor, shape)");
 }
 
+/// An empty mesh among others is noted by its reader; a scene of nothing else is a mistake, which
+/// what was noted of the first explains.
+void refuse_only_empty(const Scene& scene) {
+    const auto is_empty = [](const Shape& shape) {
+        const Mesh* const mesh = std::get_if<Mesh>(&shape.geometry);
+        return mesh && mesh->triangles.empty();
+    };
+    if (scene.shapes.empty() || !std::all_of(scene.shapes.begin(), scene.shapes.end(), is_empty))
+        return;
+    const SourceLocation& place = scene.shapes[0].location;
+    const std::string start = place.to_string() + ": ";
+    std::string reasons;
+    for (const std::string& note : scene.notes)
+        if (note.starts_with(start))
+            reasons += (reasons.empty() ? "" : "; ") + note.substr(start.size());
+    refuse(place, reasons);
+}
+
 Scene SceneBuilder::build(const std::string& file) {
     scene_.file = file;
     const Object& root = document_.objects.front();
@@ -158,9 +177,13 @@ Scene SceneBuilder::build(const std::string& file) {
     for (const Parameter& parameter : root.parameters)
         refuse(parameter.location, "<scene> has no parameter " + in_quotes(parameter.name));
     if (!sensor_) refuse({file, 0}, "the scene has no <sensor>");
+    refuse_only_empty(scene_);
     if (!integrator_)
         scene_.notes.push_back(file + ": the scene has no <integrator>; \"path\" is used");
     scene_.files = document_.files.found();
+    // Names and values out of files can neither break a line nor tell a terminal what to do.
+    for (std::string& note : scene_.notes)
+        note = as_one_line(std::move(note));
     return std::move(scene_);
 }
 

@@ -32,7 +32,8 @@ XmlFile::XmlFile(std::string name, std::string text)
                "not an XML text: it holds a zero byte");
     const pugi::xml_parse_result result = document_.load_buffer(
         text_.data(), text_.size(),
-        pugi::parse_default | pugi::parse_doctype | pugi::parse_trim_pcdata, pugi::encoding_utf8);
+        pugi::parse_default | pugi::parse_doctype | pugi::parse_trim_pcdata | pugi::parse_fragment,
+        pugi::encoding_utf8);
     if (!result)
         refuse(location_of_offset(result.offset),
                std::string("not well-formed XML: ") + result.description());
@@ -42,6 +43,20 @@ XmlFile::XmlFile(std::string name, std::string text)
                    "a document type (<!DOCTYPE ...>) is not accepted");
     refuse_entities();
     if (!root()) refuse({name_, 0}, "the file holds no XML element");
+    refuse_beside_root();
+}
+
+/// The parser takes fragments, to see what stands before and after the root, and nothing may.
+void XmlFile::refuse_beside_root() const {
+    for (const pugi::xml_node node : document_.children()) {
+        if (node.type() == pugi::node_element && node != root())
+            refuse(location(node), std::string("a second root element <") + node.name() +
+                                       "> (the first: " + location(root()).to_string() +
+                                       "; accepted: one)");
+        if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata)
+            refuse(location(node), "stray text " + in_quotes(node.value()) + " beside the root <" +
+                                       root().name() + ">");
+    }
 }
 
 void XmlFile::refuse_entities() const {

@@ -16,7 +16,7 @@ namespace parhelion::mitsuba {
 class XmlFile {
 public:
     /// Throws InputError for a text that is not well-formed UTF-8 XML, or that holds a document
-    /// type or an entity beyond the five of XML itself.
+    /// type, an entity beyond the five of XML itself, or anything beside one root element.
     XmlFile(std::string name, std::string text);
 
     pugi::xml_node root() const { return document_.document_element(); }
@@ -26,6 +26,7 @@ public:
 private:
     SourceLocation location_of_offset(std::ptrdiff_t offset) const;
     void refuse_entities() const;
+    void refuse_beside_root() const;
 
     std::string name_;
     std::string text_;

@@ -17,12 +17,14 @@ namespace {
 constexpr int max_include_depth = 15;
 constexpr int max_includes = 1000;
 constexpr int max_nesting = 64;
+constexpr int newest_version = 3; ///< of the format that this reader follows
 constexpr std::array<std::string_view, 14> object_tags = {
     "scene", "bsdf",    "emitter", "field",  "film",  "integrator", "medium",
     "phase", "rfilter", "sampler", "sensor", "shape", "texture",    "volume"};
 
-/// Numbers "1.2" or "1.2.3", as in the version attribute.
-std::array<int, 3> parse_version(std::string_view text, const SourceLocation& place) {
+/// Numbers "1.2" or "1.2.3", as in the version attribute; a newer one than this reader's is noted.
+std::array<int, 3> parse_version(std::string_view text, const SourceLocation& place,
+                                 std::vector<std::string>& notes) {
     const std::vector<std::string_view> parts = split(text, ".");
     const auto dots = std::count(text.begin(), text.end(), '.');
     std::array<int, 3> version{};
@@ -34,6 +36,10 @@ std::array<int, 3> parse_version(std::string_view text, const SourceLocation& pl
     }
     if (!good)
         refuse(place, "version " + in_quotes(text) + " is not a version number such as \"3.0.0\"");
+    if (version[0] > newest_version)
+        notes.push_back(place.to_string() + ": version " + in_quotes(text) +
+                        " of the format is newer than " + std::to_string(newest_version) +
+                        ", as which the file is read");
     return version;
 }
 
@@ -105,7 +111,9 @@ Document Reader::read(const XmlFile& xml, const LoadOptions& options) {
         refuse(place, "the root element is <" + std::string(root.name()) +
                           ">, a scene file starts with <scene version=\"...\">");
     if (!root.attribute("version")) refuse(place, "<scene> lacks the attribute \"version\"");
-    const Source source{xml, parse_version(root.attribute("version").value(), place)[0] < 2, 0};
+    const std::array<int, 3> version =
+        parse_version(root.attribute("version").value(), place, document_.notes);
+    const Source source{xml, version[0] < 2, 0};
     read_object(source, root, 0);
     resolve_references(document_, ids_);
     for (const auto& [name, value] : options.parameters)
@@ -192,7 +200,7 @@ void Reader::read_include(const Source& source, pugi::xml_node node, std::size_t
     if (!root.attribute("version"))
         refuse(xml.location(root), "the root element lacks the attribute \"version\"");
     const std::array<int, 3> version =
-        parse_version(root.attribute("version").value(), xml.location(root));
+        parse_version(root.attribute("version").value(), xml.location(root), document_.notes);
     const Source inner{xml, version[0] < 2, source.include_depth + 1};
     if (std::string_view(root.name()) != "scene") {
         read_element(inner, root, parent, nesting);
