@@ -5,6 +5,7 @@
 #include "device/wave.h"
 
 #include "device/bad_sample.h"
+#include "device/camera_lanes.h"
 
 typedef struct {
     Real offset, weight;
@@ -26,13 +27,6 @@ FN FilterSample filter_sample(global const FilterBin* table, int bins, Real u) {
         s.weight = gather((global const float*)table, bin * 2 + 1);
     }
     return s;
-}
-
-FN Camera camera_lanes(CameraRecord record) {
-    Camera c;
-#define CAMERA_SPLAT(type, name) c.name = (Real)record.name;
-    CAMERA_FIELDS(CAMERA_SPLAT)
-    return c;
 }
 
 /// Reads: camera, filter table. Writes: results (cleared), counts, path state. Pushes: one path a

@@ -6,6 +6,7 @@
 #include "device/path_state.h"
 
 #include "device/bad_sample.h"
+#include "device/camera_lanes.h"
 
 /// The camera's path or a later vertex, one packet of it.
 typedef struct {
@@ -134,7 +135,7 @@ FN void write_aovs(global Scalar* results, RenderParams params, PathVertex v, Pr
     AOV1(position, 3, R(1.))
     AOV1(uv, 0, s.uv.x)
     AOV1(uv, 1, s.uv.y)
-    AOV1(depth, 0, v.t)
+    AOV1(depth, 0, camera_distance(camera_lanes(params.camera), v.origin, v.t))
     AOV1(shape_index, 0, toReal(p.shape + 1))
     AOV1(prim_index, 0, toReal(p.index_in_shape))
 }
@@ -165,7 +166,8 @@ kernel void shade(KERNEL_PARAMETERS) {
         // ---- what is seen
         vec3 seen = splat3(R(0.));
         if (HAS(view_normals)) seen = scale3(add3(surface.ns, splat3(R(1.))), R(.5));
-        if (HAS(view_depth)) seen = splat3(v.t);
+        if (HAS(view_depth))
+            seen = splat3(camera_distance(camera_lanes(params.camera), v.origin, v.t));
         if (HAS(view_normals) || HAS(view_depth)) seen = sel3(v.hit, seen, splat3(R(0.)));
         if (HAS(emission)) {
             seen = add3(seen,
@@ -316,7 +318,7 @@ kernel void shade(KERNEL_PARAMETERS) {
                 Mask passes = may_pass & (wo.z * b.wi.z < R(0.));
                 cover(results, stride, v, may_pass & !passes);
                 // Without light there is but to see what stands behind.
-                if (!HAS(emission) && !HAS(next_event)) alive = alive & passes;
+                if (!(HAS(emission) || HAS(next_event))) alive = alive & passes;
             }
             if (HAS(russian_roulette) && depth + 1 >= params.rr_depth) {
                 Roulette roulette = russian_roulette(throughput, eta_scale, uniform01(r.w));

@@ -33,7 +33,8 @@ void average_images(const std::vector<WeightedImage>& images, const std::string&
         std::transform(sums[k].begin(), sums[k].end(), mean.channels[k].values.begin(),
                        [&](double sum) { return static_cast<float>(sum / whole); });
     mean.metadata.clear(); // of one of them
-    if (write_exr(output, mean) > 0) throw InputError(output + ": values too large for an image");
+    if (!write_exr(output, mean).empty())
+        throw InputError(output + ": values too large for an image");
 }
 
 } // namespace parhelion::bench

@@ -34,6 +34,8 @@ nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
         if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry))
             triangles += mesh->triangles.size();
     }
+    std::vector<std::string> notes = scene.notes;
+    notes.insert(notes.end(), flat.notes.begin(), flat.notes.end());
     for (const MaterialRecord& m : flat.materials)
         materials[material_names[m.kind]]++;
     for (const LightRecord& l : flat.lights)
@@ -58,7 +60,7 @@ nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
             {"device_scene_bytes", flat.bytes()},
             {"kernel_features", feature_names(flat.features)},
             {"skipped_features", feature_names(~flat.features)},
-            {"notes", scene.notes}};
+            {"notes", notes}};
 }
 
 std::string counted(const nlohmann::json& kinds) {

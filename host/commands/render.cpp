@@ -4,6 +4,7 @@
 #include "host/clock.h"
 #include "host/commands/bad_sample_warning.h"
 #include "host/commands/compile.h"
+#include "host/commands/misfit_warning.h"
 #include "host/error.h"
 #include "host/image/distinct_files.h"
 #include "host/image/exr.h"
@@ -35,21 +36,13 @@ void add_metadata(const Scene& scene, const RenderReport& report, Image& image) 
     image.metadata.emplace_back("device", report.device);
 }
 
-void write_output(const std::string& file, const RenderCommand& command, const Scene& scene,
-                  const Image& image, Progress& progress) {
-    if (image_format(file) == ImageFormat::png) {
-        std::size_t bad =
-            write_png(file, image, command.exposure.value_or(0.0), existing_files(command.force));
-        if (bad > 0)
-            progress.note(
-                fmt::format("{}: {} pixels are not finite and shown in magenta", file, bad));
-        return;
-    }
-    std::size_t lost =
-        write_exr(file, image, {scene.film.component_format, existing_files(command.force)});
-    if (lost > 0)
-        progress.note(
-            fmt::format("{}: {} values do not fit the film's component format", file, lost));
+/// Returns what the file does not hold as it is.
+std::vector<Misfits> write_output(const RenderCommand& command, const Scene& scene,
+                                  const Image& image) {
+    Existing existing = existing_files(command.force);
+    return image_format(command.output) == ImageFormat::png
+               ? write_png(command.output, image, command.exposure.value_or(0.0), existing)
+               : write_exr(command.output, image, {scene.film.component_format, existing});
 }
 
 std::vector<UsedFile> outputs_of(const RenderCommand& command) {
@@ -115,12 +108,16 @@ int run_render(const RenderCommand& command) {
     if (bad) say(bad_sample_warning(command, result.report));
 
     start = Clock::now();
-    write_output(command.output, command, scene, result.image, progress);
+    result.report.misfits = write_output(command, scene, result.image);
     result.report.write_seconds = seconds_since(start);
     result.report.host_peak_bytes = peak_host_bytes();
     if (!command.stats_file.empty())
         write_text_file(command.stats_file, json_text(to_json(result.report)),
                         existing_files(command.force));
+    if (!result.report.misfits.empty()) {
+        bad = true;
+        say(misfit_warning(command.output, scene.film, result.report));
+    }
     progress.note("wrote " + command.output);
     return static_cast<int>(bad && command.strict ? ExitCode::different : ExitCode::ok);
 }

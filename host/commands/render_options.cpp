@@ -36,7 +36,9 @@ std::vector<Option> image_options(RenderCommand& c) {
         {"--stats", &c.stats_file, "Write times, counts and memory as JSON"},
         {"--force", &c.force, "Overwrite files that exist"},
         {"--strict", &c.strict,
-         "Exit code 1 if a sample was not finite; the image, without it, is written all the same"},
+         "Exit code 1 if a sample was not finite, or a value of the image is not or does not fit "
+         "the "
+         "file's format; the image is written all the same"},
         {"--precision", &c.precision,
          "single, on the device (the default); double, the same kernels on the host: slow, to see "
          "what rounding does"},
@@ -57,8 +59,11 @@ std::vector<Option> light_options(RenderCommand& c) {
          {.domain = rr_depth_domain}},
         {"!--no-next-event", &c.next_event, "Do not sample emitters"},
         {"--shading-normals", &c.shading_normals,
-         "consistent (smooth meshes get no light from below their geometry, the default) or raw "
-         "(interpolated normals as they are, as in Mitsuba 3)"},
+         "consistent (smooth meshes get no light from below their geometry, the default), soft "
+         "(and "
+         "diffuse light fades towards their horizon) or raw (interpolated normals as they are, as "
+         "in "
+         "Mitsuba 3)"},
         {"!--no-energy-compensation", &c.energy_compensation, energy_compensation_help},
         {"--sampler", &c.sampler,
          "sobol (a pattern over the samples of a pixel, the default) or independent"},

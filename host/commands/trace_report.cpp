@@ -1,31 +1,32 @@
 // What `parhelion render --trace` prints.
 #include "host/commands/trace_report.h"
+#include "host/render/film_image.h"
 #include "host/render/kind_names.h"
+#include "host/render/report.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace parhelion {
 namespace {
 
 using nlohmann::json;
 
-/// JSON has no infinities.
-template<class Real>
-json number(Real v) {
-    if (std::isfinite(v)) return v;
-    return std::isnan(v) ? "nan" : v > 0 ? "inf" : "-inf";
+json triple(const Triple& v) { return {json_number(v[0]), json_number(v[1]), json_number(v[2])}; }
+/// Of values of the device, in the scene's unit.
+json triple(const Triple& v, double unit) {
+    auto scaled = [unit](float x) { return static_cast<float>(x * unit); };
+    return triple({scaled(v[0]), scaled(v[1]), scaled(v[2])});
 }
-json triple(const Triple& v) { return {number(v[0]), number(v[1]), number(v[2])}; }
+json radiance(const SceneFrame& frame, const Triple& v) { return triple(v, frame.radiance_unit); }
 
 /// A point of the device in the scene.
 json place(const SceneFrame& frame, const Triple& v) {
     json out = json::array();
     for (int axis = 0; axis < 3; axis++)
-        out.push_back(number(double{v[axis]} * frame.unit() + frame.centre()[axis]));
+        out.push_back(json_number(double{v[axis]} * frame.unit() + frame.centre()[axis]));
     return out;
 }
 
@@ -58,16 +59,16 @@ json light_json(const Scene& scene, const DeviceScene& flat, const TraceVertex& 
     return {{"row", n.pick->row},
             {"kind", emitter_names[static_cast<std::size_t>(flat.lights[row].kind)]},
             {"shape", light_shape(scene, flat, n.pick->row)},
-            {"pmf", number(n.pick->pmf)},
+            {"pmf", json_number(n.pick->pmf)},
             {"direction", triple(n.light->wi)},
             {"target", n.light->distant ? json(nullptr) : place(flat.frame, n.light->target)},
-            {"pdf", number(delta ? 0.f : 1.f / n.light->inverse_pdf)},
-            {"radiance_over_pdf", triple(n.light->weight)},
+            {"pdf", json_number(delta ? 0.f : 1.f / n.light->inverse_pdf)},
+            {"radiance_over_pdf", radiance(flat.frame, n.light->weight)},
             {"bsdf", triple(n.towards_light->f)},
-            {"bsdf_pdf", number(n.towards_light->pdf)},
-            {"mis_weight", number(n.light_weight.value_or(1.f))},
-            {"geometry_share", number(n.light_share.value_or(1.f))},
-            {"contribution", triple(v.light)},
+            {"bsdf_pdf", json_number(n.towards_light->pdf)},
+            {"mis_weight", json_number(n.light_weight.value_or(1.f))},
+            {"geometry_share", json_number(n.light_share.value_or(1.f))},
+            {"contribution", radiance(flat.frame, v.light)},
             {"shadow_ray", v.shadow_ray},
             {"blocked", v.blocked}};
 }
@@ -76,24 +77,24 @@ json scattering_json(const TraceVertex& v) {
     if (!v.notes.scattered) return nullptr;
     const ShadeNotes::Scattered& bsdf = *v.notes.scattered;
     return {{"wi", triple(bsdf.wi)},
-            {"pdf", number(bsdf.pdf)},
+            {"pdf", json_number(bsdf.pdf)},
             {"weight", triple(bsdf.weight)},
-            {"geometry_share", number(v.notes.scattered_share.value_or(1.f))},
-            {"eta", number(bsdf.eta)}};
+            {"geometry_share", json_number(v.notes.scattered_share.value_or(1.f))},
+            {"eta", json_number(bsdf.eta)}};
 }
 
 json roulette_json(const TraceVertex& v) {
     if (!v.notes.roulette) return nullptr;
     const ShadeNotes::Survival& r = *v.notes.roulette;
-    return {{"survives", r.alive}, {"throughput_scale", number(r.scale)}};
+    return {{"survives", r.alive}, {"throughput_scale", json_number(r.scale)}};
 }
 
-json emission_json(const TraceVertex& v) {
+json emission_json(const SceneFrame& frame, const TraceVertex& v) {
     if (!v.notes.emission) return nullptr;
-    return {{"radiance", triple(v.notes.emission->radiance)},
-            {"mis_weight", number(v.notes.emission_weight.value_or(1.f))},
-            {"light_pdf", number(v.notes.emission->pdf)},
-            {"contribution", triple(v.emission)}};
+    return {{"radiance", radiance(frame, v.notes.emission->radiance)},
+            {"mis_weight", json_number(v.notes.emission_weight.value_or(1.f))},
+            {"light_pdf", json_number(v.notes.emission->pdf)},
+            {"contribution", radiance(frame, v.emission)}};
 }
 
 json draws_json(const TraceVertex& v) {
@@ -105,7 +106,7 @@ json draws_json(const TraceVertex& v) {
 
 void add_surface(const Scene& scene, const DeviceScene& flat, const TraceVertex& v, json& out) {
     const ShadeNotes::Surface& surface = *v.notes.surface;
-    out["t"] = number(v.t * flat.frame.unit());
+    out["t"] = json_number(v.t * flat.frame.unit());
     out["shape"] = shape_json(scene, v.shape, v.primitive);
     out["position"] = place(flat.frame, surface.position);
     out["ng"] = triple(surface.ng);
@@ -125,10 +126,10 @@ json vertex_json(const Scene& scene, const DeviceScene& flat, const TraceVertex&
     json out{{"bounce", v.bounce},
              {"origin", place(flat.frame, v.origin)},
              {"direction", triple(v.direction)},
-             {"direction_pdf", number(v.pdf)},
+             {"direction_pdf", json_number(v.pdf)},
              {"throughput", triple(v.throughput)},
              {"hit", v.hit},
-             {"emission", emission_json(v)},
+             {"emission", emission_json(flat.frame, v)},
              {"not_finite", v.not_finite}};
     if (v.hit) add_surface(scene, flat, v, out);
     return out;
@@ -148,19 +149,20 @@ json trace_json(const Scene& scene, const DeviceScene& flat, const SampleTrace& 
     json vertices = json::array();
     for (const TraceVertex& v : trace.vertices)
         vertices.push_back(vertex_json(scene, flat, v));
-    return {{"scene", scene.file},
-            {"pixel", {trace.x, trace.y}},
-            {"sample", trace.sample},
-            {"seed", scene.sampler.seed},
-            {"sampler", sample_pattern_names[static_cast<std::size_t>(scene.sampler.pattern)]},
-            {"on_film", trace.on_film},
-            {"vertices", vertices},
-            {"radiance", triple(trace.radiance)},
-            {"alpha", number(trace.alpha)},
-            {"weight", number(trace.weight)},
-            {"left_out", left_out_json(trace)},
-            {"first_not_finite_vertex",
-             trace.first_not_finite < 0 ? json(nullptr) : json(trace.first_not_finite)}};
+    return {
+        {"scene", scene.file},
+        {"pixel", {trace.x, trace.y}},
+        {"sample", trace.sample},
+        {"seed", scene.sampler.seed},
+        {"sampler", sample_pattern_names[static_cast<std::size_t>(scene.sampler.pattern)]},
+        {"on_film", trace.on_film},
+        {"vertices", vertices},
+        {"radiance", triple(trace.radiance, main_layer_unit(scene.integrator.kind, flat.frame))},
+        {"alpha", json_number(trace.alpha)},
+        {"weight", json_number(trace.weight)},
+        {"left_out", left_out_json(trace)},
+        {"first_not_finite_vertex",
+         trace.first_not_finite < 0 ? json(nullptr) : json(trace.first_not_finite)}};
 }
 
 } // namespace parhelion

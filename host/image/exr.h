@@ -2,12 +2,13 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/image/misfits.h"
 #include "host/image/output.h"
 #include "host/scene/scene.h"
 
-#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace parhelion {
 
@@ -30,12 +31,14 @@ struct ExrOptions {
 };
 
 /// Writes scanlines, ZIP compressed, as linear values with Rec. 709 primaries stated. The file
-/// appears whole or not at all, as PendingFile says. Returns how many finite values the component
-/// format could not hold (float16: beyond 65504, stored as infinity; uint32: rounded to the nearest
-/// integer, outside its range or not finite, stored as the nearest end, NaN as 0): the caller
-/// should say so if not zero. An int64 beyond 32 bits is stored as its decimal digits, since EXR
-/// has no wider integer. Throws OutputError where the folder or the disk refuses.
-[[nodiscard]] std::size_t write_exr(const std::string& file, const Image& image,
-                                    const ExrOptions& options = {});
+/// appears whole or not at all, as PendingFile says. Returns, for each channel that has some, how
+/// many values are not finite or do not fit the component format. float32 and float16 keep what is
+/// not finite; float16 stores values beyond 65504 (65519 rounds to it) as infinity, uint32 the
+/// nearest integer, of what is outside its range the nearest end, of NaN 0. Values that are merely
+/// rounded, or too small for the format, are not counted. An int64 beyond 32 bits is stored as its
+/// decimal digits, since EXR has no wider integer. Throws OutputError where the folder or the disk
+/// refuses.
+[[nodiscard]] std::vector<Misfits> write_exr(const std::string& file, const Image& image,
+                                             const ExrOptions& options = {});
 
 } // namespace parhelion

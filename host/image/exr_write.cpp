@@ -106,22 +106,37 @@ bool store(Imf::PixelType type, float value, char* out) {
     return fits;
 }
 
-/// Converts and writes all rows; returns the number of values the type could not hold.
-std::size_t write_rows(Imf::OutputFile& output, const Image& image, Imf::PixelType type) {
+/// Converts rows of a channel; notes the values that are not finite or that the type cannot hold.
+void convert_rows(const Image& image, std::size_t channel, int first, int rows, Imf::PixelType type,
+                  char* out, Misfits& misfits) {
+    const float* source =
+        image.channels[channel].values.data() + static_cast<std::size_t>(first) * image.width;
+    const std::size_t count = static_cast<std::size_t>(rows) * image.width;
+    const std::size_t bytes = byte_size(type);
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool fits = store(type, source[i], out + i * bytes);
+        const bool finite = std::isfinite(source[i]);
+        if (fits && finite) continue;
+        const int row = static_cast<int>(i / image.width);
+        misfits.add(image.offset_x + static_cast<int>(i % image.width),
+                    image.offset_y + first + row, source[i], finite);
+    }
+}
+
+/// Converts and writes all rows; returns what did not fit, an entry a channel.
+std::vector<Misfits> write_rows(Imf::OutputFile& output, const Image& image, Imf::PixelType type) {
     const std::size_t bytes = byte_size(type);
     const std::size_t row_bytes = bytes * image.width;
     std::vector<std::vector<char>> bands(image.channels.size(),
                                          std::vector<char>(row_bytes * band_rows));
-    std::size_t misfits = 0;
+    std::vector<Misfits> misfits;
+    for (const Channel& channel : image.channels)
+        misfits.push_back({.channel = channel.name});
     for (int first = 0; first < image.height; first += band_rows) {
         const int rows = std::min(band_rows, image.height - first);
         Imf::FrameBuffer frame;
         for (std::size_t c = 0; c < image.channels.size(); ++c) {
-            const float* source =
-                image.channels[c].values.data() + static_cast<std::size_t>(first) * image.width;
-            const std::size_t count = static_cast<std::size_t>(rows) * image.width;
-            for (std::size_t i = 0; i < count; ++i)
-                misfits += !store(type, source[i], bands[c].data() + i * bytes);
+            convert_rows(image, c, first, rows, type, bands[c].data(), misfits[c]);
             frame.insert(image.channels[c].name,
                          Imf::Slice::Make(type, bands[c].data(),
                                           Imath::V2i(image.offset_x, image.offset_y + first),
@@ -130,16 +145,17 @@ std::size_t write_rows(Imf::OutputFile& output, const Image& image, Imf::PixelTy
         output.setFrameBuffer(frame);
         output.writePixels(rows);
     }
+    std::erase_if(misfits, [](const Misfits& channel) { return channel.count() == 0; });
     return misfits;
 }
 
 /// `file`: its name in messages.
-std::size_t write_stream(const std::string& temporary, const std::string& file, const Image& image,
-                         Imf::PixelType type) {
+std::vector<Misfits> write_stream(const std::string& temporary, const std::string& file,
+                                  const Image& image, Imf::PixelType type) {
     const Imf::Header header = make_header(image, type);
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (!stream) throw std::runtime_error(std::strerror(errno));
-    std::size_t misfits = 0;
+    std::vector<Misfits> misfits;
     {
         Imf::StdOFStream sink(stream, file.c_str());
         const int threads = static_cast<int>(
@@ -155,10 +171,11 @@ std::size_t write_stream(const std::string& temporary, const std::string& file, 
 
 } // namespace
 
-std::size_t write_exr(const std::string& file, const Image& image, const ExrOptions& options) {
+std::vector<Misfits> write_exr(const std::string& file, const Image& image,
+                               const ExrOptions& options) {
     check_image(image);
     PendingFile pending(file, options.existing);
-    std::size_t misfits = 0;
+    std::vector<Misfits> misfits;
     try {
         misfits =
             write_stream(pending.temporary_name(), file, image, pixel_type(options.component));

@@ -19,15 +19,12 @@ namespace parhelion {
 namespace {
 
 struct PreviewSource {
-    std::array<const float*, 3> planes{};
+    std::array<const Channel*, 3> planes{};
     bool is_xyz = false;
 };
 
 PreviewSource preview_source(const std::string& file, const Image& image) {
-    const auto plane = [&](const char* name) {
-        const Channel* channel = find_channel(image, name);
-        return channel ? channel->values.data() : nullptr;
-    };
+    const auto plane = [&](const char* name) { return find_channel(image, name); };
     const auto complete = [](const PreviewSource& s) {
         return s.planes[0] && s.planes[1] && s.planes[2];
     };
@@ -45,16 +42,16 @@ std::uint8_t to_byte(double linear) {
         std::lround(255.0 * srgb_encode(std::clamp(linear, 0.0, 1.0))));
 }
 
-/// Fills interleaved bytes; returns the number of pixels that are not finite.
-std::size_t tone_map(const PreviewSource& source, std::size_t count, double exposure,
-                     std::vector<std::uint8_t>& bytes) {
+/// Interleaved bytes.
+std::vector<std::uint8_t> tone_map(const PreviewSource& source, std::size_t count,
+                                   double exposure) {
     const double scale = std::exp2(exposure);
-    std::size_t not_finite = 0;
+    std::vector<std::uint8_t> bytes(3 * count);
     for (std::size_t i = 0; i < count; ++i) {
-        std::array<double, 3> rgb{source.planes[0][i], source.planes[1][i], source.planes[2][i]};
+        std::array<double, 3> rgb{source.planes[0]->values[i], source.planes[1]->values[i],
+                                  source.planes[2]->values[i]};
         if (!std::isfinite(rgb[0]) || !std::isfinite(rgb[1]) || !std::isfinite(rgb[2])) {
             rgb = {1.0, 0.0, 1.0};
-            ++not_finite;
         } else {
             if (source.is_xyz) rgb = transform(xyz_to_srgb, rgb);
             for (double& value : rgb)
@@ -63,7 +60,22 @@ std::size_t tone_map(const PreviewSource& source, std::size_t count, double expo
         for (int c = 0; c < 3; ++c)
             bytes[3 * i + c] = to_byte(rgb[c]);
     }
-    return not_finite;
+    return bytes;
+}
+
+std::vector<Misfits> misfits_of(const PreviewSource& source, const Image& image) {
+    std::vector<Misfits> all;
+    for (std::size_t plane = 0; plane < source.planes.size(); ++plane) {
+        const Channel& channel = *source.planes[plane];
+        if (plane > 0 && &channel == source.planes[0]) break; // grey
+        Misfits misfits{.channel = channel.name};
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                if (const float value = channel.values[image.index(x, y)]; !std::isfinite(value))
+                    misfits.add(image.offset_x + x, image.offset_y + y, value, false);
+        if (misfits.count() > 0) all.push_back(misfits);
+    }
+    return all;
 }
 
 void write_bytes(const std::string& file, const Image& image,
@@ -87,14 +99,12 @@ void write_bytes(const std::string& file, const Image& image,
 
 } // namespace
 
-std::size_t write_png(const std::string& file, const Image& image, double exposure,
-                      Existing existing) {
+std::vector<Misfits> write_png(const std::string& file, const Image& image, double exposure,
+                               Existing existing) {
     if (!std::isfinite(exposure)) throw std::invalid_argument("exposure must be finite");
     const PreviewSource source = preview_source(file, image);
-    std::vector<std::uint8_t> bytes(3 * image.pixel_count());
-    const std::size_t not_finite = tone_map(source, image.pixel_count(), exposure, bytes);
-    write_bytes(file, image, bytes, existing);
-    return not_finite;
+    write_bytes(file, image, tone_map(source, image.pixel_count(), exposure), existing);
+    return misfits_of(source, image);
 }
 
 } // namespace parhelion

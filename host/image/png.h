@@ -2,10 +2,11 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/image/misfits.h"
 #include "host/image/output.h"
 
-#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace parhelion {
 
@@ -13,10 +14,12 @@ namespace parhelion {
 /// 2^exposure, cut off at 0 and 1, then the sRGB transfer function. No filmic curve, so that a
 /// value below 1 can be read back from the preview, as in most renderers. Alpha is not used: the
 /// picture is over black. A pixel that is not finite becomes magenta.
-/// The file appears whole or not at all, as PendingFile says. Returns the number of pixels that are
-/// not finite. Throws OutputError where the folder or the disk refuses, InputError where the image
-/// has none of these channels.
-[[nodiscard]] std::size_t write_png(const std::string& file, const Image& image,
-                                    double exposure = 0.0, Existing existing = Existing::replace);
+/// The file appears whole or not at all, as PendingFile says. Returns, for each channel of the main
+/// layer that has some, how many values are not finite; what is cut off is no misfit. Throws
+/// OutputError where the folder or the disk refuses, InputError where the image has none of these
+/// channels.
+[[nodiscard]] std::vector<Misfits> write_png(const std::string& file, const Image& image,
+                                             double exposure = 0.0,
+                                             Existing existing = Existing::replace);
 
 } // namespace parhelion

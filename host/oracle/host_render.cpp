@@ -113,7 +113,7 @@ RenderResult render_on_host(const Scene& scene, const RenderOptions& options, Pr
     bool twice = precision == Precision::double_precision;
     progress.start("building the BVH");
     DeviceScene flat = make_device_scene(scene, options.light_choice);
-    progress.finish(fmt::format("{} primitives", flat.primitives.size()));
+    finish_flattening(flat, progress);
     RenderResult result;
     result.report = start_report(scene, flat);
     result.report.device = twice ? "host, double precision" : "host, single precision";

@@ -50,6 +50,26 @@ double horizontal_fov(const Camera& camera, int width, int height) {
     return 2.0 * std::atan(half_tangent);
 }
 
+namespace {
+
+/// The rays of a far camera begin on a plane near the shapes: made in double, where that is as far
+/// as it is.
+void begin_far(CameraRecord& r, const Camera& camera, const glm::dvec2& axis,
+               const SceneFrame& frame) {
+    glm::dvec3 forward(camera.to_world[2]);
+    Point begin = to_float((forward * frame.start - frame.shift) * frame.scale);
+    r.fx = r.ox, r.fy = r.oy, r.fz = r.oz;
+    r.ox = begin.x, r.oy = begin.y, r.oz = begin.z;
+    r.near_clip = 0.0f;
+    r.far_clip = static_cast<float>((camera.far_clip - frame.start) * frame.scale);
+    r.axis_x = static_cast<float>(axis.x), r.axis_y = static_cast<float>(axis.y);
+    r.start = static_cast<float>(frame.start * frame.scale);
+    r.lens_shift = static_cast<float>(frame.start / camera.focus_distance);
+    r.clear_share = static_cast<float>(1.0 - camera.near_clip / frame.start);
+}
+
+} // namespace
+
 CameraRecord camera_record(const Camera& camera, int width, int height, const SceneFrame& frame) {
     glm::dvec3 left(camera.to_world[0]), up(camera.to_world[1]), forward(camera.to_world[2]);
     double pixel = 2.0 * std::tan(0.5 * horizontal_fov(camera, width, height)) / width;
@@ -62,27 +82,18 @@ CameraRecord camera_record(const Camera& camera, int width, int height, const Sc
     Point d = to_float(forward - centre.x * step_x - centre.y * step_y);
     Point u = to_float(step_x), v = to_float(step_y);
     Point l = to_float(left * lens), m = to_float(up * lens);
-    return {o.x,
-            o.y,
-            o.z,
-            d.x,
-            d.y,
-            d.z,
-            u.x,
-            u.y,
-            u.z,
-            v.x,
-            v.y,
-            v.z,
-            l.x,
-            l.y,
-            l.z,
-            m.x,
-            m.y,
-            m.z,
-            static_cast<float>(camera.near_clip * frame.scale),
-            static_cast<float>(camera.far_clip * frame.scale),
-            static_cast<float>(focus)};
+    CameraRecord r{};
+    r.ox = o.x, r.oy = o.y, r.oz = o.z;
+    r.dx = d.x, r.dy = d.y, r.dz = d.z;
+    r.ux = u.x, r.uy = u.y, r.uz = u.z;
+    r.vx = v.x, r.vy = v.y, r.vz = v.z;
+    r.lx = l.x, r.ly = l.y, r.lz = l.z;
+    r.mx = m.x, r.my = m.y, r.mz = m.z;
+    r.near_clip = static_cast<float>(camera.near_clip * frame.scale);
+    r.far_clip = static_cast<float>(camera.far_clip * frame.scale);
+    r.focus_distance = static_cast<float>(focus);
+    if (frame.start > 0.0) begin_far(r, camera, centre, frame);
+    return r;
 }
 
 } // namespace parhelion

@@ -7,6 +7,7 @@
 #include "host/render/filter_table.h"
 #include "host/render/light_table.h"
 #include "host/render/material_records.h"
+#include "host/render/rounding_notes.h"
 #include "host/render/scene_features.h"
 
 #include <fmt/format.h>
@@ -165,6 +166,7 @@ static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
                                      count, most));
     DeviceScene out;
     out.frame = scene_frame(scene);
+    out.notes = rounding_notes(scene, out.frame);
     for (const Material& material : scene.materials)
         out.materials.push_back(material_record(material.bsdf));
     VertexUse use = vertex_use(scene, out.materials);

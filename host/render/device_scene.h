@@ -40,8 +40,10 @@ struct DeviceScene {
     BvhStatistics bvh_statistics;
     int camera_root = 0; ///< differs from root where emitters are hidden from the camera
     int root = 0;
-    int constant_light = -1;    ///< row of the light table
-    std::uint64_t features = 0; ///< what the kernels must have, a mask over enum Feature
+    int constant_light = -1;        ///< row of the light table
+    std::uint64_t features = 0;     ///< what the kernels must have, a mask over enum Feature
+    std::vector<std::string> notes; ///< what single precision makes of the scene that the user
+                                    ///< should be told, one line each; beside Scene::notes
 
     std::size_t bytes() const;
 };

@@ -152,6 +152,17 @@ int film_channels(const Integrator& integrator, const AovPlan& aovs) {
            (aovs.film_layers.empty() ? 0 : static_cast<int>(spread_channel_count));
 }
 
+double main_layer_unit(IntegratorKind kind, const SceneFrame& frame) {
+    switch (kind) {
+    case IntegratorKind::depth:
+        return frame.unit();
+    case IntegratorKind::normals:
+        return 1.0;
+    default:
+        return frame.radiance_unit;
+    }
+}
+
 Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene,
                  const AovPlan& aovs, const SceneFrame& frame) {
     const Film& crop = scene.film;
@@ -160,7 +171,7 @@ Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const S
     image.full_width = crop.width, image.full_height = crop.height;
     image.offset_x = crop.crop_x, image.offset_y = crop.crop_y;
     FilmReader reader(film, sizes, crop);
-    double unit = scene.integrator.kind == IntegratorKind::depth ? frame.unit() : 1.0;
+    double unit = main_layer_unit(scene.integrator.kind, frame);
     add_main_layer(reader, crop.pixel_format, unit, image);
     for (const AovLayer& layer : aovs.layers)
         add_aov_layer(reader, layer, frame, image);

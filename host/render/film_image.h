@@ -33,6 +33,10 @@ AovPlan plan_aovs(const Scene& scene);
 /// Of an image with these layers: results, AOVs, second moments, spreads.
 int film_channels(const Integrator& integrator, const AovPlan& aovs);
 
+/// What 1 on the device stands for in the main layer of an image: a radiance, a length, or a part
+/// of a normal.
+double main_layer_unit(IntegratorKind kind, const SceneFrame& frame);
+
 /// Divides the film's sums by the filter weights, turns what the device has in the units of `frame`
 /// into the scene's own, and names the channels. `film` as the accumulate kernel leaves it.
 Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene,

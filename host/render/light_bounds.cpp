@@ -11,10 +11,6 @@ namespace {
 
 constexpr double beyond_quarter_turn = 0.0, at_once = 1.0; // cosines of the angle of emission
 
-glm::dvec3 point_a(const LightRecord& l) { return {l.ax, l.ay, l.az}; }
-glm::dvec3 point_b(const LightRecord& l) { return {l.bx, l.by, l.bz}; }
-glm::dvec3 point_c(const LightRecord& l) { return {l.cx, l.cy, l.cz}; }
-
 void set_box(LightBounds& b, std::initializer_list<glm::dvec3> points) {
     b.low = b.high = *points.begin();
     for (const glm::dvec3& p : points)
@@ -36,41 +32,45 @@ void set_everywhere(LightBounds& b, double intensity) {
 
 } // namespace
 
-LightBounds light_bounds(const LightRecord& l, double area, double power) {
-    double brightness = double{l.r} + l.g + l.b;
-    glm::dvec3 a = point_a(l), b = point_b(l), c = point_c(l);
+LightBounds light_bounds(const LightRow& row) {
+    double bright = brightness(row.radiance);
+    const glm::dvec3 &a = row.a, &b = row.b, &c = row.c;
     LightBounds bounds;
-    bounds.power = power;
-    switch (l.kind) {
+    bounds.power = power(row);
+    switch (row.kind) {
     case emitter_area_triangle:
         set_box(bounds, {a, b, c});
-        set_plane(bounds, glm::cross(b - a, c - a), area, brightness);
+        set_plane(bounds, glm::cross(b - a, c - a), row.area, bright);
         break;
     case emitter_area_parallelogram:
         set_box(bounds, {a, b, c, b + c - a});
-        set_plane(bounds, glm::cross(b - a, c - a), area, brightness);
+        set_plane(bounds, glm::cross(b - a, c - a), row.area, bright);
+        break;
+    case emitter_area_tiny_triangle:
+        set_box(bounds, {a, a + b, a + c});
+        set_plane(bounds, glm::cross(b, c), row.area, bright);
         break;
     case emitter_area_disk: {
         glm::dvec3 reach = glm::sqrt(b * b + c * c);
         set_box(bounds, {a - reach, a + reach});
-        set_plane(bounds, glm::cross(b, c) * double{l.extra}, area, brightness);
+        set_plane(bounds, glm::cross(b, c) * row.extra, row.area, bright);
         break;
     }
     case emitter_area_sphere:
-        set_box(bounds, {a - double{l.bx}, a + double{l.bx}});
+        set_box(bounds, {a - b.x, a + b.x});
         // Its disk as seen from outside; all of it from inside.
-        set_everywhere(bounds, brightness * (l.extra > 0.0f ? 0.25 * area : area));
+        set_everywhere(bounds, bright * (row.extra > 0.0 ? 0.25 * row.area : row.area));
         break;
     case emitter_point:
         set_box(bounds, {a});
-        set_everywhere(bounds, brightness);
+        set_everywhere(bounds, bright);
         break;
     case emitter_spot: // as bright within its cutoff as on the axis, at most
         set_box(bounds, {a});
         bounds.axis = b;
-        bounds.cos_spread = l.cx;
+        bounds.cos_spread = c.x;
         bounds.cos_emission = at_once;
-        bounds.intensity = brightness;
+        bounds.intensity = bright;
         break;
     default:
         bounds.distant = true;

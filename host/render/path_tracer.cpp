@@ -114,6 +114,12 @@ RenderReport start_report(const Scene& scene, const DeviceScene& flat) {
     return report;
 }
 
+void finish_flattening(const DeviceScene& scene, Progress& progress) {
+    progress.finish(fmt::format("{} primitives", scene.primitives.size()));
+    for (const std::string& note : scene.notes)
+        progress.note("note: " + note);
+}
+
 void add_counts(const std::array<std::uint64_t, statistic_count>& statistics,
                 RenderReport& report) {
     report.camera_rays = report.paths = statistics[statistic_camera_rays];
@@ -147,7 +153,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     result.report.driver = device.device.driver_version;
     result.report.lanes = lanes;
     result.report.bvh_seconds = seconds_since(start);
-    progress.finish(fmt::format("{} primitives", flat.primitives.size()));
+    finish_flattening(flat, progress);
 
     progress.start("compiling kernels");
     start = Clock::now();

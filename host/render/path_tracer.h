@@ -35,6 +35,9 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
 /// What is known of a render before it starts, but for the device.
 RenderReport start_report(const Scene& scene, const DeviceScene& flat);
 
+/// Ends the step that made `scene`, and tells its notes.
+void finish_flattening(const DeviceScene& scene, Progress& progress);
+
 void add_counts(const std::array<std::uint64_t, statistic_count>& statistics, RenderReport& report);
 
 } // namespace parhelion

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace parhelion {
 namespace {
@@ -29,6 +30,13 @@ nlohmann::json to_json(const BadSample& b) {
     return json;
 }
 
+nlohmann::json to_json(const Misfits& m) {
+    return {{"channel", m.channel},
+            {"not_finite", m.not_finite},
+            {"out_of_range", m.out_of_range},
+            {"first", {{"pixel_x", m.x}, {"pixel_y", m.y}, {"value", json_number(m.value)}}}};
+}
+
 template<class T>
 nlohmann::json list(const std::vector<T>& values) {
     nlohmann::json json = nlohmann::json::array();
@@ -47,11 +55,18 @@ bool RenderReport::all_cached() const {
     return std::all_of(stages.begin(), stages.end(), [](const StageReport& s) { return s.cached; });
 }
 
+nlohmann::json json_number(double value) {
+    if (std::isfinite(value)) return value;
+    return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
+}
+
 nlohmann::json to_json(const SceneFrame& frame) {
     glm::dvec3 centre = frame.centre();
     return {{"centre", {centre.x, centre.y, centre.z}},
             {"unit", frame.unit()},
-            {"unit_exponent", frame.unit_exponent()}};
+            {"unit_exponent", frame.unit_exponent()},
+            {"rays_start", frame.start},
+            {"radiance_unit", frame.radiance_unit}};
 }
 
 nlohmann::json to_json(const RenderReport& r) {
@@ -75,12 +90,14 @@ nlohmann::json to_json(const RenderReport& r) {
             {"stages", list(r.stages)},
             {"faults", list(r.faults)},
             {"bad_samples", list(r.bad_samples)},
+            {"misfits", list(r.misfits)},
             {"counts",
              {{"paths", r.paths},
               {"camera_rays", r.camera_rays},
               {"bounce_rays", r.bounce_rays},
               {"shadow_rays", r.shadow_rays},
               {"non_finite_samples", r.non_finite_samples},
+              {"misfits", misfit_count(r.misfits)},
               {"primitives", r.primitives},
               {"lights", r.lights}}},
             {"rates",

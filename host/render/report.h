@@ -1,6 +1,7 @@
 // What a render did and what it cost, for people and for scripts.
 #pragma once
 
+#include "host/image/misfits.h"
 #include "host/render/bad_samples.h"
 #include "host/render/scene_frame.h"
 
@@ -40,6 +41,7 @@ struct RenderReport {
                   non_finite_samples = 0;
     std::vector<FaultCount> faults;     ///< of those samples; kinds that there are none of left out
     std::vector<BadSample> bad_samples; ///< a few of them, in the order of samples and pixels
+    std::vector<Misfits> misfits;       ///< values that the written file does not hold as they are
     std::uint64_t primitives = 0, lights = 0;
     std::uint64_t device_scene_bytes = 0, device_pool_bytes = 0, device_film_bytes = 0,
                   host_peak_bytes = 0,
@@ -53,7 +55,11 @@ struct RenderReport {
 /// One object; every key that has a unit ends in it.
 nlohmann::json to_json(const RenderReport& report);
 
-/// Centre (scene's units) and unit (scene's units, a power of two).
+/// JSON has no infinities: "inf", "-inf" and "nan" stand for what is no finite number.
+nlohmann::json json_number(double value);
+
+/// Centre (scene's units), unit (scene's units, a power of two), where camera rays start along the
+/// axis (scene's units) and the unit of radiance.
 nlohmann::json to_json(const SceneFrame& frame);
 
 /// The most memory this process has had, bytes.

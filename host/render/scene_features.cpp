@@ -78,8 +78,8 @@ void add_surfaces(const Scene& scene, const DeviceScene& records, FeatureSet& se
 
 constexpr std::uint64_t meetable_emitters =
     feature_bit(feature_emitter_area_triangle) | feature_bit(feature_emitter_area_parallelogram) |
-    feature_bit(feature_emitter_area_sphere) | feature_bit(feature_emitter_area_disk) |
-    feature_bit(feature_emitter_constant);
+    feature_bit(feature_emitter_area_tiny_triangle) | feature_bit(feature_emitter_area_sphere) |
+    feature_bit(feature_emitter_area_disk) | feature_bit(feature_emitter_constant);
 
 #define EMITTER_BIT(name) | feature_bit(feature_emitter_##name)
 constexpr std::uint64_t all_emitters = 0 EMITTERS(EMITTER_BIT);
@@ -115,9 +115,11 @@ void add_transport(const Integrator& integrator, const DeviceScene& records, Fea
                feature_russian_roulette);
     set.add_if(integrator.hide_emitters, feature_hide_emitters);
     bool smooth = set.mask & feature_bit(feature_vertex_normals);
-    set.add_if((next_event || scatters) && smooth &&
-                   integrator.shading_normals == ShadingNormals::consistent,
+    bool shaded = smooth && (next_event || scatters);
+    set.add_if(shaded && integrator.shading_normals != ShadingNormals::raw,
                feature_consistent_normals);
+    set.add_if(shaded && integrator.shading_normals == ShadingNormals::soft,
+               feature_soft_terminator);
 }
 
 void add_filter(const Film& film, FeatureSet& set) {
@@ -134,6 +136,7 @@ std::uint64_t scene_features(const Scene& scene, const DeviceScene& records) {
     add_lights(records, set);
     set.add_if(scene.sampler.pattern == SamplePattern::sobol, feature_sobol);
     set.add_if(scene.camera.aperture_radius > 0.0, feature_thin_lens);
+    set.add_if(records.frame.start > 0.0, feature_far_camera);
     add_filter(scene.film, set);
     set.add_if(integrator.kind == IntegratorKind::normals, feature_view_normals);
     set.add_if(integrator.kind == IntegratorKind::depth, feature_view_depth);

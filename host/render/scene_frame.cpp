@@ -66,6 +66,16 @@ double scale_for(const glm::dvec3& extent, const std::string& file) {
     return std::ldexp(1.0, std::min(size_exponent - std::ilogb(size), largest_exponent));
 }
 
+/// SceneFrame::start for a box about the camera.
+double start_before(const Bounds& box, const Camera& camera) {
+    glm::dvec3 axis(camera.to_world[2]), extent = box.high - box.low;
+    // The nearest corner: of each coordinate the end that adds least.
+    glm::dvec3 along = glm::min(box.low * axis, box.high * axis) / glm::dot(axis, axis);
+    double nearest = along.x + along.y + along.z, size = std::max({extent.x, extent.y, extent.z});
+    constexpr double far = 64.0; // sizes
+    return nearest > far * size ? std::max(nearest - size, camera.near_clip) : 0.0;
+}
+
 } // namespace
 
 int SceneFrame::unit_exponent() const { return -std::ilogb(scale); }
@@ -98,6 +108,7 @@ SceneFrame scene_frame(const Scene& scene) {
     glm::dvec3 extent = box.high - box.low;
     if (extent != glm::dvec3(0.0)) extent = glm::max(extent, glm::abs(frame.shift) * furthest);
     frame.scale = scale_for(extent, scene.file);
+    frame.start = start_before(box, scene.camera);
     return frame;
 }
 

@@ -20,6 +20,10 @@ namespace parhelion {
 /// scene still has an area squared, and what is 2^20 of it away (a lamp) a distance squared times
 /// the square of the scene's size.
 ///
+/// Rays from the camera begin there, or, where it is more than 64 times the box's largest side away
+/// from the box along its axis, on a plane before the box: a ray from so far would not know what it
+/// meets better than to 2^-24 of its way.
+///
 /// Everything is found from differences to the camera. Where the sum of a coordinate and what it is
 /// moved by is exact, they are differences of other doubles but the same real number, and round to
 /// the same bits; a power of two scales every one of them exactly.
@@ -27,6 +31,9 @@ struct SceneFrame {
     glm::dvec3 camera{0.0}; ///< where it is
     glm::dvec3 shift{0.0};  ///< from there to the centre
     double scale = 1.0;     ///< units of the device to one of the scene, a power of two
+    double start = 0.0; ///< from the camera to where its rays begin, along its axis, the scene's
+                        ///< units; 0: at the camera
+    double radiance_unit = 1.0; ///< radiance of the scene that is 1 on the device (radiance_unit.h)
 
     /// World units.
     glm::dvec3 centre() const { return camera + shift; }
@@ -36,8 +43,6 @@ struct SceneFrame {
 
     /// Never -0, which a scene loses when it is moved.
     glm::dvec3 point(const glm::dvec3& p) const { return ((p - camera) - shift) * scale + 0.0; }
-    /// Radiant intensity of a light without size: irradiance is that over a distance squared.
-    Rgb intensity(const Rgb& i) const { return i * scale * scale; }
     Sphere sphere(Sphere s) const;
     Disk disk(Disk d) const;
 };

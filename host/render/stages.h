@@ -54,7 +54,8 @@ constexpr std::uint64_t stage_features(Stage stage) {
     constexpr std::uint64_t streams = feature_bit(feature_ray_streams);
     switch (stage) {
     case Stage::generate:
-        return film | feature_bit(feature_thin_lens) | feature_bit(feature_sobol);
+        return film | feature_bit(feature_thin_lens) | feature_bit(feature_far_camera) |
+               feature_bit(feature_sobol);
     case Stage::intersect:
     case Stage::shadow:
         return shapes | streams;

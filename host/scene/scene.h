@@ -228,8 +228,10 @@ struct AovRequest {
 };
 
 /// `consistent`: shading of smooth meshes keeps to their geometry
-/// (kernels/shared/shading_normal.h); `raw`: interpolated normals are taken as they are.
-#define SHADING_NORMALS(X) X(consistent) X(raw)
+/// (kernels/shared/shading_normal.h); `soft`: and diffuse light fades towards the true horizon,
+/// which hides the edges of faces and loses light; `raw`: interpolated normals are taken as they
+/// are.
+#define SHADING_NORMALS(X) X(consistent) X(soft) X(raw)
 #define SHADING_NORMALS_ENUM(name) name,
 enum class ShadingNormals { SHADING_NORMALS(SHADING_NORMALS_ENUM) };
 

@@ -3,7 +3,7 @@
 //   r any float, also NaN and infinite   f any finite float       u [0, 1), the device's grid    c
 //   [0, 1] s 0 or 1e-4 .. 1e4                   a roughness 1e-4 .. 1    b 32 random bits d unit
 //   vector (3)    p point (3)     i interface (4)          m material (16)    l light (16) g
-//   primitive (16)     v vertex (16)   k camera (21)
+//   primitive (16)     v vertex (16)   k camera (29)
 #pragma once
 
 #include "host/stress/measure.h"
@@ -182,6 +182,8 @@ private:
         values("pp");
         put(random_.log_between(1e-4, 1)), put(random_.log_between(1, 1e5)),
             put(random_.log_between(1e-2, 1e2));
+        put(random_.between(0, 1e3)), put(random_.between(0, 1e3));
+        values("sup"), put(random_.unit());
     }
 
     Random random_;

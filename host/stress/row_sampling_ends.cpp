@@ -149,7 +149,7 @@ f32::Light light_of(int kind, double size, vec3 n, double side) {
     default: // corners
         set_b(u), set_c(v);
         l.extra = 1 / (s * s);
-        l.area = s * s * (kind == emitter_area_triangle ? .5f : 1.f);
+        l.area = s * s * (kind == emitter_area_parallelogram ? 1.f : .5f);
     }
     return l;
 }

@@ -28,6 +28,7 @@ namespace parhelion::stress {
     X(scale_and_move, "Images", "A scene scaled by a power of two or moved exactly gives the same bits") \
     X(scale_and_turn, "Images", "A scene of any other size, turned: the same means (Welch)") \
     X(grain_and_planet, "Images", "Grains of 1e-6 to 1e6 on a planet of 1e7: device against double precision") \
+    X(small_and_far,  "Images", "Lights down to 1e-18 wide, things looked at from up to 1e12: closed forms") \
     X(closed_forms,   "Images", "Scenes of known answers over many seeds: no bias, and errors as large as they say")
 // clang-format on
 

@@ -36,6 +36,8 @@ FN vec3 light_c(Light l) { return v3(l.cx, l.cy, l.cz); }
 FN vec3 light_corners_normal(Light l) {
     return scale3(cross3(sub3(light_b(l), light_a(l)), sub3(light_c(l), light_a(l))), l.extra);
 }
+/// The same of an emitter with the edges b and c, and +-1 / |cross(b, c)|.
+FN vec3 light_edges_normal(Light l) { return scale3(cross3(light_b(l), light_c(l)), l.extra); }
 FN vec3 light_radiance(Light l) { return v3(l.r, l.g, l.b); }
 /// 1 / l.pmf: a light that has no other beside it is always picked.
 FN Real light_inverse_pmf(Light l) {
@@ -72,6 +74,15 @@ FN EmitterSample emitter_area_finish(Light l, vec3 p, vec3 q, vec3 q_error, vec3
     s.q_normal = q_normal;
     s.distant = inverse != inverse;
     return s;
+}
+
+/// A sample of an emitter in the plane of the edges b and c, at `at` times them from a, chosen
+/// uniformly by area.
+FN EmitterSample emitter_edges_sample(Light l, vec3 p, vec2 at) {
+    vec3 q = add3(light_a(l), add3(scale3(light_b(l), at.x), scale3(light_c(l), at.y)));
+    vec3 error = add3(abs3(light_a(l)), add3(scale3(abs3(light_b(l)), absR(at.x)),
+                                             scale3(abs3(light_c(l)), absR(at.y))));
+    return emitter_area_finish(l, p, q, scale3(error, GAMMA(7.f)), light_edges_normal(l));
 }
 
 /// Turns a sample of a shape that was chosen uniformly by solid angle (sr), where it was, into one

@@ -16,8 +16,8 @@
 
 // Rows of the light table. An area emitter has one row for each of its primitives.
 #define EMITTERS(X)                                                                                \
-    X(area_triangle) X(area_parallelogram) X(area_sphere) X(area_disk) X(point) X(spot)              \
-    X(directional) X(constant)
+    X(area_triangle) X(area_parallelogram) X(area_tiny_triangle) X(area_sphere) X(area_disk)        \
+    X(point) X(spot) X(directional) X(constant)
 
 // First-hit values beside the radiance: name, number of channels, suffixes of the channel names. A channel without suffix is
 // for the host: of a position, 1, to know how much of a pixel has one.
@@ -33,12 +33,14 @@
     X(ray_streams)        /* so many primitives that rays soon part ways */                        \
     X(vertex_normals)     /* some mesh is smooth */                                                \
     X(consistent_normals) /* and its shading keeps to the geometry */                               \
+    X(soft_terminator)    /* with diffuse light fading towards the true horizon */                 \
     X(vertex_uvs)         /* some mesh has texture coordinates, and something reads them */         \
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
     X(ggx) X(beckmann) X(anisotropy)                                                               \
     X(energy_compensation) /* some rough lobe makes up for what it scatters more than once */      \
     X(sobol)              /* samples of a pixel in a pattern; without: independent */               \
     X(thin_lens)                                                                                   \
+    X(far_camera)         /* so far from all shapes that rays begin near them */                   \
     X(filter_splatting)   /* a sample counts for all pixels that the filter reaches */              \
     X(filter_sampling)    /* a sample lies where the filter has put it, and counts for one pixel */ \
     X(several_lights)     /* rows of the light table to look up what a ray has met in */            \

@@ -1,5 +1,5 @@
 // Shading normals that keep to the geometry: no light from below the surface, no mirror image into
-// it, and a soft edge of the light on coarse meshes.
+// it, and, where it is asked for, a soft edge of the light on coarse meshes.
 
 /// A unit normal n and the geometric normal on its side.
 typedef struct {
@@ -61,8 +61,10 @@ FN Real consistent_share(ShadingSide s, vec3 wi) {
     return sel(dot3(s.n, wi) * dot3(s.g, wi) <= R(0.), R(0.), R(1.));
 }
 
-/// The same for diffuse surfaces, whose light fades towards the horizon of the geometry (Chiang, Li
-/// and Burley 2019, "Taming the shadow terminator"): at most 1, and 1 where the normals agree.
+/// The same where the light of diffuse surfaces fades towards the horizon of the geometry (Chiang,
+/// Li and Burley 2019, "Taming the shadow terminator"): at most 1, and 1 where the normals agree.
+/// It hides the edges of faces, but takes the image further from that of the surface the mesh
+/// stands for (docs/accuracy.md).
 FN Real softened_share(ShadingSide s, vec3 wi) {
     Real geometric = dot3(s.g, wi), shading = dot3(s.n, wi) * dot3(s.n, s.g);
     Mask hidden = geometric * shading <= R(0.);
@@ -73,7 +75,8 @@ FN Real softened_share(ShadingSide s, vec3 wi) {
 /// Share of the light from or to wi that counts on this material.
 FN Real counted_share(ShadingSide s, Material m, vec3 wi) {
     Real share = consistent_share(s, wi);
-    if (HAS(bsdf_diffuse)) share = sel(m.kind == material_diffuse, softened_share(s, wi), share);
+    if (HAS(soft_terminator) && HAS(bsdf_diffuse))
+        share = sel(m.kind == material_diffuse, softened_share(s, wi), share);
     // No surface at all hides nothing.
     if (HAS(bsdf_null)) share = sel(m.kind == material_null, R(1.), share);
     return share;

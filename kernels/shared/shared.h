@@ -37,6 +37,7 @@
 #include "shared/emitter_area_disk.h"
 #include "shared/emitter_area_parallelogram.h"
 #include "shared/emitter_area_sphere.h"
+#include "shared/emitter_area_tiny_triangle.h"
 #include "shared/emitter_area_triangle.h"
 #include "shared/emitter_constant.h"
 #include "shared/emitter_directional.h"

@@ -147,6 +147,8 @@ LAYOUT(BvhPatch, 256);
 // --------------------------------------------------------------------------------------------------- camera
 // A ray through the pixel position (x, y), in pixels from the top left corner of the full film:
 // direction = corner + x * step_x + y * step_y, whose length along the optical axis is 1.
+// If HAS(far_camera), rays begin on a plane that is `start` from the lens: the origin is where the axis meets that, the position
+// (axis_x, axis_y) of the film, near_clip and far_clip count from there. Otherwise these are 0.
 #define CAMERA_FIELDS(X)                                                                           \
     X(float, ox) X(float, oy) X(float, oz)    /* origin */                                         \
     X(float, dx) X(float, dy) X(float, dz)    /* corner direction */                               \
@@ -154,9 +156,13 @@ LAYOUT(BvhPatch, 256);
     X(float, vx) X(float, vy) X(float, vz)    /* step_y */                                         \
     X(float, lx) X(float, ly) X(float, lz)    /* lens axis x, aperture radius long */              \
     X(float, mx) X(float, my) X(float, mz)    /* lens axis y, aperture radius long */              \
-    X(float, near_clip) X(float, far_clip) X(float, focus_distance)
+    X(float, near_clip) X(float, far_clip) X(float, focus_distance)                                \
+    X(float, axis_x) X(float, axis_y) X(float, start)                                              \
+    X(float, lens_shift)                      /* start / focus_distance */                         \
+    X(float, fx) X(float, fy) X(float, fz)    /* centre of the lens */                             \
+    X(float, clear_share)                     /* 1 - the near plane's distance / start */
 typedef struct { CAMERA_FIELDS(FIELD_DECLARE) } CameraRecord;
-LAYOUT(CameraRecord, 84);
+LAYOUT(CameraRecord, 116);
 
 #define AOV_LIMIT 8
 
@@ -188,7 +194,7 @@ typedef struct {
     RENDER_FIELDS(FIELD_DECLARE)
     int aov_offset[AOV_LIMIT]; // first film channel of each AOV kind, -1: not asked for
 } RenderParams;
-LAYOUT(RenderParams, 84 + 27 * 4 + AOV_LIMIT * 4);
+LAYOUT(RenderParams, 116 + 27 * 4 + AOV_LIMIT * 4);
 
 // A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
 // Which of them a slot of the pool is, device/wave.h says.

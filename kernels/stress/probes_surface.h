@@ -108,8 +108,8 @@ FN ProbeOut probe_shading_side(ProbeIn i) {
     return put2(o, 6, v2(consistent_share(s, in3(i, 9)), softened_share(s, in3(i, 9))));
 }
 FN ProbeOut probe_camera_ray(ProbeIn i) {
-    CameraRay r = camera_ray(in_Camera(i, 0), v2(i.w[21] * R(1000.), i.w[22] * R(1000.)),
-                             disk_uniform(in2(i, 23)));
+    CameraRay r = camera_ray(in_Camera(i, 0), v2(i.w[29] * R(1000.), i.w[30] * R(1000.)),
+                             disk_uniform(in2(i, 31)));
     return put1(put3(out3(r.origin), 3, r.direction), 6, r.t_max);
 }
 

@@ -31,9 +31,11 @@ TEST_CASE("Shading normals: faces that are turned away from the light are dark",
         auto count = [&](ShadingNormals normals) {
             return turned_away(test::render_quietly(panel_scene(bsdf, normals)).image, 0);
         };
-        TurnedAway consistent = count(ShadingNormals::consistent);
-        CHECK(consistent.lit == 0);
-        CHECK(consistent.dark > 1000);
+        for (ShadingNormals normals : {ShadingNormals::consistent, ShadingNormals::soft}) {
+            TurnedAway kept = count(normals);
+            CHECK(kept.lit == 0);
+            CHECK(kept.dark > 1000);
+        }
         CHECK(count(ShadingNormals::raw).lit > 20);
     }
 }
@@ -45,6 +47,9 @@ TEST_CASE("Shading normals: only lit smooth meshes have kernels that keep to the
     Scene scene = panel_scene(diffuse, ShadingNormals::consistent);
     CHECK((features_of(scene) & consistent) != 0);
     CHECK((features_of(panel_scene(diffuse, ShadingNormals::raw)) & consistent) == 0);
+    constexpr std::uint64_t soft = consistent | feature_bit(feature_soft_terminator);
+    CHECK((features_of(panel_scene(diffuse, ShadingNormals::soft)) & soft) == soft);
+    CHECK((features_of(scene) & soft) == consistent);
     scene.integrator.kind = IntegratorKind::normals;
     CHECK((features_of(scene) & consistent) == 0);
     scene = panel_scene(diffuse, ShadingNormals::consistent);
@@ -58,8 +63,10 @@ TEST_CASE("Shading normals: the command line says which", "[render]") {
     CHECK(test::load(command).integrator.shading_normals == ShadingNormals::consistent);
     command.shading_normals = "raw";
     CHECK(test::load(command).integrator.shading_normals == ShadingNormals::raw);
+    command.shading_normals = "soft";
+    CHECK(test::load(command).integrator.shading_normals == ShadingNormals::soft);
     command.shading_normals = "smooth";
     CHECK_THROWS_WITH(test::load(command), Catch::Contains("--shading-normals") &&
                                                Catch::Contains("consistent") &&
-                                               Catch::Contains("raw"));
+                                               Catch::Contains("soft") && Catch::Contains("raw"));
 }

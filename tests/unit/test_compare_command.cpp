@@ -32,7 +32,7 @@ Image rgb_image(float r, float g, float b) {
 }
 
 std::string store(const TemporaryFolder& folder, const std::string& name, const Image& image) {
-    CHECK(write_exr(folder.file(name), image) == 0);
+    CHECK(write_exr(folder.file(name), image).empty());
     return folder.file(name);
 }
 

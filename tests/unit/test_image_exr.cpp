@@ -52,7 +52,7 @@ TEST_CASE("EXR: every float of every layer comes back to the bit") {
     for (const auto& [width, height] : {std::pair{1, 1}, {37, 131}, {64, 64}, {3, 257}}) {
         const Image image = sample_image(width, height);
         const std::string file = folder.file("image.exr");
-        CHECK(write_exr(file, image) == 0);
+        static_cast<void>(write_exr(file, image)); // some are not finite
         const Image back = read_exr(file);
         CHECK(back.width == width);
         CHECK(back.height == height);
@@ -70,7 +70,7 @@ TEST_CASE("EXR: the top row comes first and x runs to the right") {
     const TemporaryFolder folder;
     Image image = make_image(3, 2);
     add_channel(image, "Y", {1, 2, 3, 4, 5, 6});
-    CHECK(write_exr(folder.file("a.exr"), image) == 0);
+    CHECK(write_exr(folder.file("a.exr"), image).empty());
     CHECK(read_exr(folder.file("a.exr")).channels.at(0).values ==
           std::vector<float>{1, 2, 3, 4, 5, 6});
 }
@@ -83,7 +83,7 @@ TEST_CASE("EXR: crops keep their place in the frame") {
     image.offset_x = 100;
     image.offset_y = 470;
     add_channel(image, "Y", random_floats(20, 9));
-    CHECK(write_exr(folder.file("crop.exr"), image) == 0);
+    static_cast<void>(write_exr(folder.file("crop.exr"), image)); // some are not finite
     const Image back = read_exr(folder.file("crop.exr"));
     CHECK(back.width == 5);
     CHECK(back.height == 4);
@@ -103,7 +103,7 @@ TEST_CASE("EXR: metadata comes back with its type") {
                       {"spp", std::int64_t(64)},
                       {"negative", std::int64_t(-1)},
                       {"seed", std::int64_t(4294967295)}};
-    CHECK(write_exr(folder.file("m.exr"), image) == 0);
+    CHECK(write_exr(folder.file("m.exr"), image).empty());
     const Image back = read_exr(folder.file("m.exr"));
     CHECK(std::get<std::string>(metadata(back, "scene")) == "a scene.xml");
     CHECK(std::get<double>(metadata(back, "parhelion.render_seconds")) == 1.25);
@@ -123,7 +123,11 @@ TEST_CASE("EXR: float16 rounds to nearest and counts what becomes infinite") {
     const float infinity = std::numeric_limits<float>::infinity();
     Image image = make_image(7, 1);
     add_channel(image, "Y", {0.1f, -2.0f, 65504.0f, 65519.0f, 65520.0f, -1e30f, infinity});
-    CHECK(write_exr(folder.file("h.exr"), image, {ComponentFormat::float16}) == 2);
+    const std::vector<Misfits> misfits =
+        write_exr(folder.file("h.exr"), image, {ComponentFormat::float16});
+    REQUIRE(misfits.size() == 1);
+    CHECK((misfits[0].not_finite == 1 && misfits[0].out_of_range == 2));
+    CHECK((misfits[0].x == 4 && misfits[0].y == 0 && misfits[0].value == 65520.0f));
     const std::vector<float> back = read_exr(folder.file("h.exr")).channels.at(0).values;
     CHECK(back == std::vector<float>{0.0999755859375f, -2.0f, 65504.0f, 65504.0f, infinity,
                                      -infinity, infinity});
@@ -134,15 +138,42 @@ TEST_CASE("EXR: uint32 rounds to the nearest integer and counts what does not fi
     const float nan = std::numeric_limits<float>::quiet_NaN();
     Image image = make_image(6, 1);
     add_channel(image, "Y", {0.4f, 1.6f, 16777215.0f, -0.4f, -3.0f, nan});
-    CHECK(write_exr(folder.file("u.exr"), image, {ComponentFormat::uint32}) == 2);
+    CHECK(misfit_count(write_exr(folder.file("u.exr"), image, {ComponentFormat::uint32})) == 2);
     CHECK(read_exr(folder.file("u.exr")).channels.at(0).values ==
           std::vector<float>{0, 2, 16777215.0f, 0, 0, 0});
 
     image.channels[0].values[0] = 16777216.0f;
     image.channels[0].values[1] = 1e20f;
-    CHECK(write_exr(folder.file("big.exr"), image, {ComponentFormat::uint32}) == 3);
+    CHECK(misfit_count(write_exr(folder.file("big.exr"), image, {ComponentFormat::uint32})) == 3);
     const std::string message = refusal([&] { read_exr(folder.file("big.exr")); });
     CHECK_THAT(message, Catch::Contains("channel Y holds unsigned integers of 2^24"));
+}
+
+TEST_CASE("EXR: of every layer, what is not finite and where it begins, in pixels of the frame") {
+    const TemporaryFolder folder;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float infinity = std::numeric_limits<float>::infinity();
+    const int rows = 600; // more than are converted at a time
+    Image image = make_image(2, rows);
+    image.full_width = 10, image.full_height = 1000, image.offset_x = 7, image.offset_y = 30;
+    for (const char* name : {"R", "A", "variance.G", "depth.T"})
+        add_channel(image, name, std::vector<float>(image.pixel_count(), 1.0f));
+    image.channels[0].values.back() = 3e38f; // float32 holds it
+    image.channels[1].values[image.index(0, 500)] = -infinity;
+    image.channels[2].values[image.index(1, 300)] = nan;
+    image.channels[2].values[image.index(0, 301)] = infinity;
+    const std::vector<Misfits> misfits = write_exr(folder.file("a.exr"), image);
+    REQUIRE(misfits.size() == 2);
+    CHECK((misfits[0].channel == "A" && misfits[0].count() == 1));
+    CHECK((misfits[0].x == 7 && misfits[0].y == 530 && misfits[0].value == -infinity));
+    CHECK((misfits[1].channel == "variance.G" && misfits[1].not_finite == 2));
+    CHECK((misfits[1].x == 8 && misfits[1].y == 330 && std::isnan(misfits[1].value)));
+    CHECK(misfit_count(misfits) == 3);
+    // No format makes a finite number of it.
+    const auto as_half = write_exr(folder.file("h.exr"), image, {ComponentFormat::float16});
+    CHECK(misfit_count(as_half) == 4);
+    CHECK(as_half.at(0).out_of_range == 1);
+    CHECK(write_exr(folder.file("u.exr"), image, {ComponentFormat::uint32}).size() == 3);
 }
 
 TEST_CASE("Image: channels that do not belong are refused") {

@@ -117,7 +117,7 @@ TEST_CASE("Output: a full disk leaves neither half a file nor a temporary, and k
         }
         CHECK(read_bytes(file) == std::vector<char>{'o', 'l', 'd'});
         CHECK(folder.entries() == 1);
-        CHECK(write() == 0);
+        CHECK(write().empty());
         CHECK(read_bytes(file).size() > 10000);
         fs::remove(file);
     }
@@ -127,7 +127,7 @@ TEST_CASE("Output: a full disk leaves neither half a file nor a temporary, and k
 TEST_CASE("Output: a disk that fills on the last bytes is noticed") {
     const TemporaryFolder folder;
     const Image image = noisy_image(64);
-    CHECK(write_exr(folder.file("whole.exr"), image) == 0);
+    CHECK(write_exr(folder.file("whole.exr"), image).empty());
     const auto size = fs::file_size(folder.file("whole.exr"));
     for (const rlim_t missing : {1, 5000}) {
         const FullDisk disk(size - missing);
@@ -147,7 +147,7 @@ TEST_CASE("Output: a missing folder is an error of the writers as well") {
 TEST_CASE("Output: names with a percent sign, spaces and UTF-8 work") {
     const TemporaryFolder folder;
     const std::string file = folder.file("50% déjà vu.exr");
-    CHECK(write_exr(file, noisy_image(2)) == 0);
+    CHECK(write_exr(file, noisy_image(2)).empty());
     CHECK(read_exr(file).width == 2);
 }
 
@@ -170,11 +170,14 @@ TEST_CASE("PNG: clipped sRGB, exposure in stops, and pixels that are not finite 
     Image image = make_image(4, 1);
     add_rgb_layer(image, "",
                   std::vector<float>{0, 0.5f, 1, -1, 0.25f, 7, nan, 0, 0, 0, infinity, 0});
-    CHECK(write_png(folder.file("a.png"), image) == 2);
+    const std::vector<Misfits> misfits = write_png(folder.file("a.png"), image);
+    REQUIRE(misfits.size() == 2);
+    CHECK((misfits[0].channel == "R" && misfits[0].not_finite == 1 && misfits[0].x == 2));
+    CHECK((misfits[1].channel == "G" && misfits[1].not_finite == 1 && misfits[1].x == 3));
     // 255 srgb(0.5) = 187.5 (to 187.516), 255 srgb(0.25) = 136.95
     CHECK(decode_png(folder.file("a.png"), 4, 1) ==
           std::vector<std::uint8_t>{0, 188, 255, 0, 137, 255, 255, 0, 255, 255, 0, 255});
-    CHECK(write_png(folder.file("a.png"), image, 1.0) == 2);
+    CHECK(misfit_count(write_png(folder.file("a.png"), image, 1.0)) == 2);
     CHECK(decode_png(folder.file("a.png"), 4, 1) ==
           std::vector<std::uint8_t>{0, 255, 255, 0, 188, 255, 255, 0, 255, 255, 0, 255});
     CHECK(folder.entries() == 1);
@@ -184,12 +187,12 @@ TEST_CASE("PNG: luminance is grey, XYZ is converted, anything else is refused") 
     const TemporaryFolder folder;
     Image grey = make_image(1, 1);
     add_channel(grey, "Y", {0.5f});
-    CHECK(write_png(folder.file("y.png"), grey) == 0);
+    CHECK(write_png(folder.file("y.png"), grey).empty());
     CHECK(decode_png(folder.file("y.png"), 1, 1) == std::vector<std::uint8_t>{188, 188, 188});
     Image xyz = grey;
     add_channel(xyz, "X", {0.5f * 0.950456f});
     add_channel(xyz, "Z", {0.5f * 1.089058f});
-    CHECK(write_png(folder.file("xyz.png"), xyz) == 0);
+    CHECK(write_png(folder.file("xyz.png"), xyz).empty());
     CHECK(decode_png(folder.file("xyz.png"), 1, 1) == std::vector<std::uint8_t>{188, 188, 188});
     Image depth = make_image(1, 1);
     add_channel(depth, "depth.T", {1.0f});

@@ -44,7 +44,7 @@ std::string small_file(const TemporaryFolder& folder) {
     add_rgb_layer(image, "", std::vector<float>(8 * 6 * 3, 0.25f));
     image.metadata = {{"comments", std::string("x")}};
     const std::string file = folder.file("small.exr");
-    CHECK(write_exr(file, image) == 0);
+    CHECK(write_exr(file, image).empty());
     return file;
 }
 

@@ -1,6 +1,7 @@
 // What the host tells the device: rows of lights and records of materials by their closed forms,
 // and what the light tree makes of lights, by the formulas of its paper.
 #include "host/render/light_bounds.h"
+#include "host/render/light_rows.h"
 #include "host/render/material_records.h"
 #include "host/stress/every_kind_scene.h"
 #include "tests/support/shared_maths.h"
@@ -171,10 +172,13 @@ TEST_CASE("Record truths: boxes, cones and brightness of lights for the tree", "
          pi * 0.5 * std::hypot(0.25, 0.1) * s2 * brightness},
         {in.at(1, 2, -3), in.at(1, 2, -3), any, -1, 0, s2 * brightness},
         {in.at(-1, 2, -3), in.at(-1, 2, -3), {0.6, -0.8, 0}, std::cos(0.7), 1, s2 * brightness}};
+    std::vector<std::string> notes;
+    std::vector<LightRow> rows = light_rows(lit_scene(), device, notes);
+    REQUIRE(rows.size() == std::size(bounds) + 2);
+    CHECK(notes.empty());
     for (std::size_t i = 0; i < std::size(bounds); i++) {
         INFO("row " << i);
-        const LightRecord& l = device.lights[i];
-        LightBounds found = light_bounds(l, l.area, 7);
+        LightBounds found = light_bounds(rows[i]);
         const Bound& b = bounds[i];
         CHECK(glm::length(found.low - b.low) < 1e-4 * s);
         CHECK(glm::length(found.high - b.high) < 1e-4 * s);
@@ -182,11 +186,11 @@ TEST_CASE("Record truths: boxes, cones and brightness of lights for the tree", "
         CHECK(found.cos_spread == near(b.cos_spread));
         CHECK(found.cos_emission == b.cos_emission);
         CHECK(found.intensity == near(b.intensity));
-        CHECK(found.power == 7);
+        CHECK(found.power == power(rows[i]));
         CHECK(!found.distant);
     }
     for (std::size_t i : {8, 9})
-        CHECK(light_bounds(device.lights[i], 0, 7).distant);
+        CHECK(light_bounds(rows[i]).distant);
 }
 
 TEST_CASE("Record truths: importance of lights, Conty Estevez and Kulla 2018", "[truths]") {

@@ -24,6 +24,7 @@ struct LightCase {
 double record_extra(const LightCase& c) {
     auto vector = [](const double(&x)[3]) { return f64::v3(x[0], x[1], x[2]); };
     f64::vec3 a = vector(c.a), b = vector(c.b), d = vector(c.c);
+    if (c.kind == emitter_area_tiny_triangle) return 1 / f64::length3(f64::cross3(b, d));
     if (c.kind == emitter_area_disk) return c.extra / f64::length3(f64::cross3(b, d));
     if (c.kind == emitter_area_triangle || c.kind == emitter_area_parallelogram)
         return 1 / f64::length3(f64::cross3(f64::sub3(b, a), f64::sub3(d, a)));
@@ -79,6 +80,13 @@ Meeting trace_area_parallelogram(const f64::Light& l, f64::vec3 p, f64::vec3 w) 
     return meet(m.t > 0 && m.b1 >= 0 && m.b2 >= 0 && m.b1 <= 1 && m.b2 <= 1, p, w, m.t);
 }
 
+Meeting trace_area_tiny_triangle(const f64::Light& edges, f64::vec3 p, f64::vec3 w) {
+    f64::Light l = edges;
+    l.bx += l.ax, l.by += l.ay, l.bz += l.az;
+    l.cx += l.ax, l.cy += l.ay, l.cz += l.az;
+    return trace_area_triangle(l, p, w);
+}
+
 Meeting trace_area_disk(const f64::Light& l, f64::vec3 p, f64::vec3 w) {
     f64::vec3 normal = f64::cross3(light_b(l), light_c(l)), to = f64::sub3(light_a(l), p);
     double t = f64::dot3(to, normal) / f64::dot3(w, normal);
@@ -114,6 +122,11 @@ Cases cases_area_parallelogram() {
             {0, {-1, -1, 2}, {-1, 1, 3}, {1, 0, 2}, area, 0, 1, {-0.2, 0.1, 2.2}},
             {0, {-1, -1, 2}, {-1, 1, 3}, {1, 0, 2}, area, 0, 1, {0, 0, 2.4999}}, // in front of it
             {0, {-1, -1, 2}, {-1, 1, 3}, {1, 0, 2}, area, 0, 1, {20, 9, -99}}};  // small: by area
+}
+Cases cases_area_tiny_triangle() { // edges; no size is too large for it, but for its noise
+    double area = std::sqrt(1 + 4 + 16.0) / 2;
+    return {{0, {-1, -1, 4}, {0, 2, 1}, {2, 1, 0}, area, 0, 0.25, {0, 0, 0}},
+            {0, {-1, -1, 2}, {0, 2, 1}, {2, 1, 0}, area, 0, 1, {20, 9, -99}}};
 }
 Cases cases_area_disk() {
     return {{0, {0.3, 0.2, 3}, {0.7, 0, 0}, {0, 0.7, 0}, M_PI * 0.49, -1, 0.5, {0, 0, 0}},

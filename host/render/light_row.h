@@ -1,0 +1,28 @@
+// A row of the light table in the making: in double, before single precision rounds it.
+#pragma once
+
+#include "host/scene/scene.h"
+#include "kernels/shared/features.h"
+#include "kernels/shared/types.h"
+
+namespace parhelion {
+
+/// a, b, c, extra and radiance are what LIGHT_FIELDS and the emitter's own header say; lengths in
+/// the device's units.
+struct LightRow {
+    EmitterKind kind = emitter_constant;
+    glm::dvec3 a{0.0}, b{0.0}, c{0.0};
+    Rgb radiance{0.0};
+    double extra = 0.0;
+    double area = 0.0;     ///< of the emitting surface; 0: no surface
+    double etendue = 0.0;  ///< power of a radiance of 1, in any common unit
+    double distance = 0.0; ///< of a light without size from the box around all shapes; 0 within
+    int first_primitive = -1, primitive_count = 1; ///< that shine; -1: none does
+};
+
+inline double brightness(const Rgb& c) { return c.r + c.g + c.b; }
+
+/// Proportional to the power.
+inline double power(const LightRow& row) { return row.etendue * brightness(row.radiance); }
+
+} // namespace parhelion
