@@ -27,18 +27,19 @@ FN void note_bad_sample(BlockResults block, const SampleGroup* g, int part, int 
     IntLanes slots;
     slots.lanes = g->slot[n];
     global const Scalar* of_sample = block.results + slots.at[lane];
-    Scalar weight = of_sample[result_weight * block.stride];
+    Scalar weight = AT(global const Scalar, of_sample + result_weight * block.stride, 0);
     int told = (int)(weight != weight); // by the stage that made it
-    int code = told ? (int)of_sample[result_alpha * block.stride] : (int)fault_sum;
-    bad.counts[code % fault_count]++;
-    if (bad.first[bad_sample_known]) return;
+    int code = told ? (int)AT(global const Scalar, of_sample + result_alpha * block.stride, 0)
+                    : (int)fault_sum;
+    AT(global ulong, bad.counts, code % fault_count)++;
+    if (AT(global int, bad.first, bad_sample_known)) return;
     int pixel = part * LANES + lane;
-    bad.first[bad_sample_known] = 1;
-    bad.first[bad_sample_sample] = bad.sample + n;
-    bad.first[bad_sample_x] = bad.x + (pixel & 3);
-    bad.first[bad_sample_y] = bad.y + (pixel >> 2);
-    bad.first[bad_sample_fault] = code % fault_count;
-    bad.first[bad_sample_bounce] = told ? code / fault_count : -1;
+    AT(global int, bad.first, bad_sample_known) = 1;
+    AT(global int, bad.first, bad_sample_sample) = bad.sample + n;
+    AT(global int, bad.first, bad_sample_x) = bad.x + (pixel & 3);
+    AT(global int, bad.first, bad_sample_y) = bad.y + (pixel >> 2);
+    AT(global int, bad.first, bad_sample_fault) = code % fault_count;
+    AT(global int, bad.first, bad_sample_bounce) = told ? code / fault_count : -1;
 }
 
 /// In the order of samples, then pixels.
@@ -76,6 +77,7 @@ FN void add_samples(BlockResults block, WaveParams wave, int first, int count,
 /// finite, which are left out, statistics (how many) and where the first was. Samples are added in
 /// groups in the order of their numbers, so the sums do not depend on the waves.
 kernel void accumulate(KERNEL_PARAMETERS) {
+    CHECK_BOUNDS();
     int block = get_global_id(0);
     if (block >= wave.block_count) return;
     int tile = wave.first_block + block;

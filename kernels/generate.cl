@@ -32,6 +32,7 @@ FN FilterSample filter_sample(global const FilterBin* table, int bins, Real u) {
 /// Reads: camera, filter table. Writes: results (cleared), counts, path state. Pushes: one path a
 /// valid pixel and sample.
 kernel void generate(KERNEL_PARAMETERS) {
+    CHECK_BOUNDS();
     int segment = get_global_id(0);
     int first = segment * params.segment_size;
     int last = min(first + params.segment_size, wave_paths(wave));
@@ -96,6 +97,7 @@ kernel void generate(KERNEL_PARAMETERS) {
         PATH_PACK_INT(excluded, (Int)(-1));
         to += popcount(bits);
     }
-    counts[2 * segment] = to - begin;
-    statistics[statistic_count * segment + statistic_camera_rays] += (ulong)(to - begin);
+    AT(global int, counts, 2 * segment) = to - begin;
+    AT(global ulong, statistics, statistic_count * segment + statistic_camera_rays) +=
+        (ulong)(to - begin);
 }

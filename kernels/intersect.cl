@@ -23,9 +23,10 @@ FN void intersect_packets(global const BvhNode* nodes, global const BvhLine* lea
 
 /// Reads: path state (ray, t as its end, excluded). Writes: path state (t, b1, b2, primitive).
 kernel void intersect(KERNEL_PARAMETERS) {
+    CHECK_BOUNDS();
     int segment = get_global_id(0);
     int base = segment * params.segment_stride;
-    int end = base + counts[2 * segment];
+    int end = base + AT(global int, counts, 2 * segment);
     int root = depth == 0 ? params.camera_root : params.root;
     if (HAS(ray_streams) && depth > 0)
         traverse_stream(bvh_nodes, bvh_leaves, root, path_state, params.state_stride, base, end, 0,
@@ -33,5 +34,6 @@ kernel void intersect(KERNEL_PARAMETERS) {
     else
         intersect_packets(bvh_nodes, bvh_leaves, root, path_state, params, base, end);
     if (depth > 0)
-        statistics[statistic_count * segment + statistic_bounce_rays] += (ulong)(end - base);
+        AT(global ulong, statistics, statistic_count * segment + statistic_bounce_rays) +=
+            (ulong)(end - base);
 }

@@ -150,9 +150,10 @@ FN vec3 to_world_from(ShadingFrame frame, vec3 w, Real side) {
 /// path and shadow state. Pushes: a shadow ray for each vertex with light to receive, a path for
 /// each that goes on; both packed in place.
 kernel void shade(KERNEL_PARAMETERS) {
+    CHECK_BOUNDS();
     int segment = get_global_id(0);
     int base = segment * params.segment_stride;
-    int end = base + counts[2 * segment];
+    int end = base + AT(global int, counts, 2 * segment);
     int next_path = base, next_shadow = base;
     long stride = params.result_stride;
     for (int at = base; at < end; at += LANES) {
@@ -353,6 +354,6 @@ kernel void shade(KERNEL_PARAMETERS) {
             }
         }
     }
-    counts[2 * segment] = next_path - base;
-    counts[2 * segment + 1] = next_shadow - base;
+    AT(global int, counts, 2 * segment) = next_path - base;
+    AT(global int, counts, 2 * segment + 1) = next_shadow - base;
 }

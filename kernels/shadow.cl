@@ -19,9 +19,10 @@ FN Mask shadow_packet(global const BvhNode* nodes, global const BvhLine* leaves,
 /// Reads: shadow state. Writes: results (r, g, b of the rays' own path slots; no other work-item
 /// has them), shadow state (blocked).
 kernel void shadow(KERNEL_PARAMETERS) {
+    CHECK_BOUNDS();
     int segment = get_global_id(0);
     int base = segment * params.segment_stride;
-    int end = base + counts[2 * segment + 1];
+    int end = base + AT(global int, counts, 2 * segment + 1);
     if (HAS(ray_streams))
         traverse_stream(bvh_nodes, bvh_leaves, params.root, shadow_state, params.state_stride, base,
                         end, 1, params.extent);
@@ -34,5 +35,6 @@ kernel void shadow(KERNEL_PARAMETERS) {
         add_result3(results, params.result_stride, result_r, SHADOW_LOAD_INT(slot), light,
                     maskBits(active & !blocked));
     }
-    statistics[statistic_count * segment + statistic_shadow_rays] += (ulong)(end - base);
+    AT(global ulong, statistics, statistic_count * segment + statistic_shadow_rays) +=
+        (ulong)(end - base);
 }

@@ -13,8 +13,9 @@ namespace parhelion {
 namespace {
 
 std::string option_text(const ProgramOptions& options) {
-    return fmt::format("-cl-std=CL1.2 -DLANES={} -DFEATURE_MASK=0x{:x}ul{}", options.lanes,
-                       options.features, options.portable ? " -DPORTABLE" : "");
+    return fmt::format("-cl-std={} -DLANES={} -DFEATURE_MASK=0x{:x}ul{}{}",
+                       options.checked ? "CL2.0" : "CL1.2", options.lanes, options.features,
+                       options.portable ? " -DPORTABLE" : "", options.checked ? " -DCHECKED" : "");
 }
 
 /// The lines of a compiler's log that say what is wrong; one mistake in a header gives hundreds.

@@ -14,6 +14,7 @@ struct ProgramOptions {
     int lanes = 1;
     std::uint64_t features = ~std::uint64_t{0}; ///< mask over enum Feature
     bool portable = false;                      ///< without x86 intrinsics
+    bool checked = false; ///< accesses ask whether they stay within their buffers; OpenCL C 2.0
 };
 
 /// What is compiled, and for what; whatever can change the result is in its key.

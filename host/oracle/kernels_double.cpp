@@ -28,7 +28,7 @@ struct Kernels : WorkItem {
 #undef PARHELION_REAL_IS_DOUBLE
 
     void intersect(KERNEL_PARAMETERS) {
-        int base = number * params.segment_stride, end = base + counts[2 * number];
+        int base = number * params.segment_stride, end = base + AT(int, counts, 2 * number);
         int root = depth == 0 ? params.camera_root : params.root;
         for (int at = base; at < end; at++) {
             PacketRay ray = packet_ray(
@@ -42,12 +42,12 @@ struct Kernels : WorkItem {
             PATH_STORE_INT(primitive, hit.primitive);
         }
         if (depth > 0)
-            statistics[statistic_count * number + statistic_bounce_rays] +=
+            AT(ulong, statistics, statistic_count * number + statistic_bounce_rays) +=
                 static_cast<ulong>(end - base);
     }
 
     void shadow(KERNEL_PARAMETERS) {
-        int base = number * params.segment_stride, end = base + counts[2 * number + 1];
+        int base = number * params.segment_stride, end = base + AT(int, counts, 2 * number + 1);
         for (int at = base; at < end; at++) {
             PacketRay ray =
                 packet_ray(v3(SHADOW_LOAD_REAL(ox), SHADOW_LOAD_REAL(oy), SHADOW_LOAD_REAL(oz)),
@@ -59,7 +59,7 @@ struct Kernels : WorkItem {
             add_result3(results, params.result_stride, result_r, SHADOW_LOAD_INT(slot), light,
                         hit.primitive < 0);
         }
-        statistics[statistic_count * number + statistic_shadow_rays] +=
+        AT(ulong, statistics, statistic_count * number + statistic_shadow_rays) +=
             static_cast<ulong>(end - base);
     }
 };
@@ -67,7 +67,8 @@ struct Kernels : WorkItem {
 } // namespace
 
 void run_work_item(Stage stage, const HostLaunch<double>& launch, int depth, int number) {
-    Kernels kernels{{launch.features, number}};
+    auto buffers = buffer_ranges(launch);
+    Kernels kernels{{launch.features, number, buffers}};
     run_stage(kernels, stage, launch, depth);
 }
 

@@ -24,7 +24,8 @@ struct Kernels : WorkItem {
 } // namespace
 
 void run_work_item(Stage stage, const HostLaunch<float>& launch, int depth, int number) {
-    Kernels kernels{{launch.features, number}};
+    auto buffers = buffer_ranges(launch);
+    Kernels kernels{{launch.features, number, buffers}};
     run_stage(kernels, stage, launch, depth);
 }
 

@@ -2,6 +2,7 @@
 //
 // The kernel's text is the one that renders; while it is read here, the names of the functions that
 // it calls stand for the call and a note of the answer.
+#include "host/oracle/run_stage.h"
 #include "host/oracle/shade_notes.h"
 #include "host/oracle/work_item.h"
 
@@ -91,7 +92,8 @@ struct Kernels : WorkItem {
 } // namespace
 
 ShadeNotes shade_noted(const HostLaunch<float>& launch, int depth) {
-    Kernels kernels{{launch.features, 0}};
+    auto buffers = buffer_ranges(launch);
+    Kernels kernels{{launch.features, 0, buffers}};
 #define SCENE_ARGUMENT(type, name) launch.scene.name.data(),
 #define WORK_ARGUMENT(type, name) launch.memory.name.data(),
     kernels.shade(SCENE_BUFFERS(SCENE_ARGUMENT) WORK_BUFFERS(WORK_ARGUMENT) launch.params,

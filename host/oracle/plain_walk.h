@@ -73,10 +73,10 @@ PlainHit plain_walk(const BvhNode* nodes, const BvhLine* leaves, const Primitive
     for (int top = 1; top > 0 && !(any_hit && hit.primitive >= 0);) {
         int code = stack[--top];
         if (code >= 0) {
-            top = plain_children(nodes[code], r, hit.t, stack, top);
+            top = plain_children(AT(const BvhNode, nodes, code), r, hit.t, stack, top);
             continue;
         }
-        plain_leaf(leaves + (~code >> 2), ~code & 3, [&](int number) {
+        plain_leaf(IN_BUFFER(const BvhLine, leaves, ~code >> 2), ~code & 3, [&](int number) {
             if (number == excluded) return;
             Intersection i = plain_primitive(r, load_Primitive(primitives, number), hit.t);
             bool closer = i.hit && (i.t < hit.t || hit.primitive < 0 || number < hit.primitive);

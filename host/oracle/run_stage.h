@@ -2,8 +2,25 @@
 #pragma once
 
 #include "host/oracle/wave_memory.h"
+#include "host/oracle/work_item.h"
+
+#include <array>
 
 namespace parhelion {
+
+/// Of a launch, by the lists of buffers.
+template<class Real>
+auto buffer_ranges(const HostLaunch<Real>& launch) {
+    auto range = [](const char* name, const auto& values) {
+        return BufferRange{name, reinterpret_cast<std::uintptr_t>(values.data()),
+                           values.size() * sizeof(values[0])};
+    };
+#define SCENE_RANGE(type, name) range(#name, launch.scene.name),
+#define WORK_RANGE(type, name) range(#name, launch.memory.name),
+    return std::array{SCENE_BUFFERS(SCENE_RANGE) WORK_BUFFERS(WORK_RANGE)};
+#undef WORK_RANGE
+#undef SCENE_RANGE
+}
 
 /// `Kernels`: a WorkItem that has the stages' kernels as members.
 template<class Kernels, class Real>

@@ -12,6 +12,7 @@
 
 #include <future>
 #include <mutex>
+#include <stdexcept>
 
 namespace parhelion {
 namespace {
@@ -65,6 +66,13 @@ void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
         stream.wait();
     for (auto& stream : streams)
         stream.get();
+}
+
+void check_bounds(Pipeline& pipeline) {
+    for (WaveStream& stream : pipeline.streams())
+        if (const char* buffer = stream.read_outside())
+            throw std::logic_error(
+                fmt::format("a kernel reads or writes outside of its buffers, from {} on", buffer));
 }
 
 /// Streams for the device to choose from: two where several cores would wait for each other.
@@ -139,7 +147,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     int lanes = options.lanes > 0 ? options.lanes : device.device.lanes();
 
     WorkSplit split = options.split;
-    split.streams = stream_count(split, device.device);
+    split.streams = options.checked ? 1 : stream_count(split, device.device);
     WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, lanes,
                                  film_channels(scene.integrator, aovs), split);
     check_film_memory(scene, sizes, device.device);
@@ -158,7 +166,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     progress.start("compiling kernels");
     start = Clock::now();
     Pipeline pipeline(device, {lanes, options.portable, render_features(flat, options),
-                               options.split.work_group_size});
+                               options.split.work_group_size, options.checked});
     result.report.compile_seconds = seconds_since(start);
     result.report.stages = pipeline.stage_reports();
     result.report.compiler_peak_bytes = pipeline.compiler_peak_bytes();
@@ -174,6 +182,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     start = Clock::now();
     bool next_event = flat.features & feature_bit(feature_next_event);
     trace_image(pipeline, scene, sizes, params, next_event, progress);
+    if (options.checked) check_bounds(pipeline);
     result.report.render_seconds = seconds_since(start);
     add_counts(pipeline.read_statistics(), result.report);
     if (result.report.non_finite_samples > 0)

@@ -16,6 +16,7 @@ struct RenderOptions {
     int lanes = 0;         ///< 0: what suits the device
     bool portable = false; ///< kernels without x86 intrinsics
     LightChoice light_choice = LightChoice::importance;
+    bool checked = false; ///< kernels look after the bounds of buffers: slowly, with one stream
     bool all_features = false; ///< kernels that can do everything, whatever the scene needs
 };
 

@@ -6,6 +6,7 @@
 #include "host/clock.h"
 #include "host/error.h"
 #include "host/render/kernel_arguments.h"
+#include "kernels/device/bounds.h"
 
 #include <sys/types.h> // ulong, as the kernels call it
 
@@ -18,7 +19,8 @@ namespace parhelion {
 namespace {
 
 ProgramSource group_source(ProgramGroup group, const StageOptions& options) {
-    ProgramOptions program{options.lanes, 0, options.portable};
+    // Intrinsics have no bounds.
+    ProgramOptions program{options.lanes, 0, options.portable || options.checked, options.checked};
     std::vector<std::string> files;
     for (std::size_t i = 0; i < stage_count; i++) {
         if (stage_groups[i] != group) continue;
@@ -67,7 +69,8 @@ void check_work_group(std::size_t most, int work_group_size, const std::string& 
 /// Some drivers finish compiling a kernel at its first launch (PoCL: for that size of work-group):
 /// a launch without paths belongs to compiling.
 void launch_empty(const RenderDevice& d, const Wanted& w, const Program& program,
-                  int work_group_size) {
+                  const StageOptions& options) {
+    int work_group_size = options.work_group_size;
     Buffer<ulong> zeros(d.context, "zeros",
                         static_cast<std::size_t>(statistic_count) * work_group_size);
     zeros.fill_zero(d.queue);
@@ -81,6 +84,10 @@ void launch_empty(const RenderDevice& d, const Wanted& w, const Program& program
         kernel.setArg(params_argument, RenderParams{});
         kernel.setArg(wave_argument, WaveParams{});
         kernel.setArg(depth_argument, 0);
+        if (options.checked) {
+            kernel.setArg(sizes_argument, BufferSizes{});
+            kernel.setArg(outside_argument, zeros.handle());
+        }
         d.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(work_group_size),
                                      cl::NDRange(work_group_size));
     }
@@ -88,13 +95,13 @@ void launch_empty(const RenderDevice& d, const Wanted& w, const Program& program
 }
 
 /// After `beside`, which may be compiling the same, has ended.
-Compiled compile(const RenderDevice& d, const Wanted& w, int work_group_size,
+Compiled compile(const RenderDevice& d, const Wanted& w, const StageOptions& options,
                  std::optional<ChildProcess> beside) {
     auto start = Clock::now();
     if (w.opened) return {d.programs.at(w.key), true};
     std::uint64_t beside_bytes = beside ? beside->wait().peak_bytes : 0;
     Program program(d.context, d.device, d.program_cache(), w.source);
-    launch_empty(d, w, program, work_group_size);
+    launch_empty(d, w, program, options);
     return {program, w.kept || program.from_cache(), seconds_since(start), beside_bytes};
 }
 
@@ -103,8 +110,8 @@ Compiled compile(const RenderDevice& d, const Wanted& w, int work_group_size,
 std::optional<ChildProcess> start_beside(const RenderDevice& d, const std::vector<Wanted>& programs,
                                          const StageOptions& options) {
     auto unknown = [](const Wanted& w) { return !w.opened && !w.kept; };
-    if (!d.compile_beside || !d.device.keeps_programs || !unknown(programs.back()) ||
-        std::count_if(programs.begin(), programs.end(), unknown) < 2)
+    if (!d.compile_beside || options.checked || !d.device.keeps_programs ||
+        !unknown(programs.back()) || std::count_if(programs.begin(), programs.end(), unknown) < 2)
         return std::nullopt;
     return d.compile_beside(programs.back().group, options);
 }
@@ -140,13 +147,14 @@ StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
     for (const Wanted& w : programs)
         jobs.push_back(
             std::async(d.device.one_thread ? std::launch::deferred : std::launch::async, compile,
-                       std::cref(d), std::cref(w), options.work_group_size,
+                       std::cref(d), std::cref(w), std::cref(options),
                        &w == &programs.back() ? std::exchange(beside, {}) : std::nullopt));
     std::vector<Compiled> compiled;
     compiled.reserve(jobs.size());
     for (auto& job : jobs)
         compiled.push_back(job.get());
     StagePrograms result;
+    result.checked = options.checked;
     for (std::size_t g = 0; g < compiled.size(); g++) {
         keep(d, programs[g], compiled[g]);
         d.programs.emplace(programs[g].key, compiled[g].program);
@@ -164,7 +172,7 @@ StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
 bool compile_program(RenderDevice& d, ProgramGroup group, const StageOptions& options) {
     check_work_group(largest_work_group(d.device), options.work_group_size, d.device.name);
     Wanted w = wanted(d, group, options);
-    Compiled compiled = compile(d, w, options.work_group_size, std::nullopt);
+    Compiled compiled = compile(d, w, options, std::nullopt);
     keep(d, w, compiled);
     d.programs.emplace(w.key, compiled.program);
     return compiled.cached;

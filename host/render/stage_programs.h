@@ -10,8 +10,9 @@
 namespace parhelion {
 
 struct StagePrograms {
-    std::vector<Program> programs;       ///< one for each Stage; several are the same
-    std::vector<StageReport> reports;    ///< likewise
+    std::vector<Program> programs;    ///< one for each Stage; several are the same
+    std::vector<StageReport> reports; ///< likewise
+    bool checked = false;
     std::uint64_t beside_peak_bytes = 0; ///< of the process that compiled one of them; 0: none did
 };
 

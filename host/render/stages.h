@@ -40,6 +40,7 @@ struct StageOptions {
     bool portable = false;
     std::uint64_t features = 0;
     int work_group_size = 1;
+    bool checked = false; ///< kernels look after the bounds of buffers (kernels/device/bounds.h)
 };
 
 /// The part of a feature mask that can change the stage's program; the rest would only make more

@@ -3,14 +3,26 @@
 
 #include "host/error.h"
 #include "host/render/kernel_arguments.h"
+#include "kernels/device/bounds.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace parhelion {
 namespace {
+
+#define BUFFER_NAME(type, name) #name,
+constexpr std::array buffer_names{SCENE_BUFFERS(BUFFER_NAME) WORK_BUFFERS(BUFFER_NAME) "no buffer"};
+
+BufferSizes buffer_sizes(const SceneBuffers& scene, const WaveBuffers& work,
+                         const Buffer<float>& film) {
+#define SCENE_SIZE(type, name) scene.name.bytes(),
+#define WAVE_SIZE(type, name) work.name.bytes(),
+    return {{SCENE_BUFFERS(SCENE_SIZE) WAVE_BUFFERS(WAVE_SIZE) film.bytes()}};
+}
 
 int rounded_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
 
@@ -70,7 +82,8 @@ void bind_arguments(cl::Kernel& kernel, const SceneBuffers& scene, const WaveBuf
 WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs,
                        const WorkSizes& s)
     : queue_(device.context, device.device.handle, CL_QUEUE_PROFILING_ENABLE),
-      no_film_(device.context, "film", 0), work_group_size_(s.work_group_size) {
+      no_film_(device.context, "film", 0), outside_(device.context, "outside", 1),
+      checked_(programs.checked), work_group_size_(s.work_group_size) {
     for (std::size_t stage = 0; stage < stage_count; stage++)
         kernels_.push_back(programs.programs[stage].kernel(stage_names[stage]));
     std::size_t counted = std::max(s.segments, s.blocks_per_wave);
@@ -84,6 +97,7 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
     // Leftovers behind the last path are read (and ignored): they must be numbers the first time
     // too.
     work_.path_state.fill_zero(queue_);
+    outside_.fill_zero(queue_);
     work_.counts.fill_zero(queue_);
     work_.statistics.fill_zero(queue_);
     work_.bad_samples.fill_zero(queue_);
@@ -94,7 +108,12 @@ void WaveStream::bind(const SceneBuffers& scene, const Buffer<float>& film,
                       const RenderParams& params) {
     for (std::size_t stage = 0; stage < stage_count; stage++) {
         bool writes_film = static_cast<Stage>(stage) == Stage::accumulate;
-        bind_arguments(kernels_[stage], scene, work_, writes_film ? film : no_film_, params);
+        const Buffer<float>& of_stage = writes_film ? film : no_film_;
+        bind_arguments(kernels_[stage], scene, work_, of_stage, params);
+        if (checked_) {
+            kernels_[stage].setArg(sizes_argument, buffer_sizes(scene, work_, of_stage));
+            kernels_[stage].setArg(outside_argument, outside_.handle());
+        }
         kernels_[stage].setArg(depth_argument, 0);
     }
 }
@@ -137,6 +156,12 @@ std::vector<int> WaveStream::read_bad_samples() {
     std::vector<int> words(work_.bad_samples.count());
     work_.bad_samples.read(queue_, words.data());
     return words;
+}
+
+const char* WaveStream::read_outside() {
+    cl_uint number = 0;
+    outside_.read(queue_, &number);
+    return number > 0 ? buffer_names[number - 1] : nullptr;
 }
 
 void WaveStream::collect_times() {

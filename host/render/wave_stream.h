@@ -81,6 +81,8 @@ public:
     std::array<std::uint64_t, statistic_count> read_statistics();
     /// BAD_SAMPLE_FIELDS a block of the film.
     std::vector<int> read_bad_samples();
+    /// The name of a buffer that a checked kernel has left; null: none has.
+    const char* read_outside();
     /// Adds what each stage took since the last call; waits for the device.
     void collect_times();
 
@@ -96,6 +98,8 @@ private:
     /// Bound where a stage leaves the film alone, or the driver would let streams wait for each
     /// other.
     Buffer<float> no_film_;
+    Buffer<cl_uint> outside_; ///< of checked kernels
+    bool checked_;
     int work_group_size_;
     std::vector<std::pair<std::size_t, cl::Event>> pending_;
     std::array<StageTime, stage_count> times_{};

@@ -16,8 +16,9 @@ FN void mark_bad(global Scalar* results, long stride, Int slot, Mask bad, int fa
     IntLanes slots;
     slots.lanes = slot;
     for (; bits; bits &= bits - 1) {
-        global Scalar* weight = results + result_weight * stride + slots.at[lowest_bit(bits)];
-        global Scalar* alpha = results + result_alpha * stride + slots.at[lowest_bit(bits)];
+        int place = slots.at[lowest_bit(bits)];
+        global Scalar* weight = IN_BUFFER(global Scalar, results + result_weight * stride, place);
+        global Scalar* alpha = IN_BUFFER(global Scalar, results + result_alpha * stride, place);
         if (*weight != *weight) continue;
         *weight = NAN;
         *alpha = (Scalar)(fault + depth * fault_count);

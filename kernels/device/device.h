@@ -9,6 +9,8 @@
 
 #include "device/buffers.h"
 
+#include "device/bounds.h"
+
 #define SCENE_PARAMETER(type, name) global const type *restrict name,
 // Work is done in Reals: the float of the list of work buffers stands for one lane of them.
 #define WORK_float Scalar
@@ -17,7 +19,8 @@
 #define WORK_PARAMETER(type, name) global WORK_##type *restrict name,
 #define KERNEL_PARAMETERS                                                                          \
     SCENE_BUFFERS(SCENE_PARAMETER)                                                                 \
-    WORK_BUFFERS(WORK_PARAMETER) const RenderParams params, const WaveParams wave, const int depth
+    WORK_BUFFERS(WORK_PARAMETER)                                                                   \
+    const RenderParams params, const WaveParams wave, const int depth CHECKED_PARAMETERS
 
 FN int wave_paths(WaveParams w) { return w.block_count * w.sample_count * BLOCK_PIXELS; }
 

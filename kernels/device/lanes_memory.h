@@ -3,10 +3,10 @@
 #ifndef PARHELION_LANES_MEMORY_H
 #define PARHELION_LANES_MEMORY_H
 
-#define LOAD_REAL(p) (*(global const Real*)(p))
-#define LOAD_INT(p) (*(global const Int*)(p))
-#define STORE_REAL(p, v) (*(global Real*)(p) = (v))
-#define STORE_INT(p, v) (*(global Int*)(p) = (v))
+#define LOAD_REAL(p) AT(global const Real, p, 0)
+#define LOAD_INT(p) AT(global const Int, p, 0)
+#define STORE_REAL(p, v) (AT(global Real, p, 0) = (v))
+#define STORE_INT(p, v) (AT(global Int, p, 0) = (v))
 
 typedef union {
     Real lanes;
@@ -45,15 +45,15 @@ FN Real look_up(const Table* t, Int place) {
 // Storing the lanes whose bits are set one behind the other. Where lanes are many, up to LANES
 // entries behind `p` are overwritten.
 #if LANES == 1
-#define PACKED_STORE(name, memory, type, Lanes, Union, compress)                                   \
+#define PACKED_STORE(name, memory, place, type, Lanes, Union, compress)                            \
     FN void name(memory type* p, Lanes v, uint bits) {                                             \
-        if (bits) *p = v;                                                                          \
+        if (bits) place(memory type, p, 0) = v;                                                    \
     }
 #elif defined(LANE_AVX512)
 // vstore16() would be four stores.
 typedef Real RealAnywhere __attribute__((aligned(4)));
 typedef Int IntAnywhere __attribute__((aligned(4)));
-#define PACKED_STORE(name, memory, type, Lanes, Union, compress)                                   \
+#define PACKED_STORE(name, memory, place, type, Lanes, Union, compress)                            \
     FN void name(memory type* p, Lanes v, uint bits) {                                             \
         *(memory Lanes##Anywhere*)p = compress(v, (Lanes)0, bits);                                 \
     }
@@ -65,29 +65,29 @@ typedef Int IntAnywhere __attribute__((aligned(4)));
 #define COMPRESS_INT(v, rest, bits) __builtin_ia32_compresssi256_mask(v, rest, (uchar)(bits))
 #endif
 #else
-#define PACKED_STORE(name, memory, type, Lanes, Union, compress)                                   \
+#define PACKED_STORE(name, memory, place, type, Lanes, Union, compress)                            \
     FN void name(memory type* p, Lanes v, uint bits) {                                             \
         Union x;                                                                                   \
         x.lanes = v;                                                                               \
         for (int n = 0; bits; bits &= bits - 1)                                                    \
-            p[n++] = x.at[lowest_bit(bits)];                                                       \
+            place(memory type, p, n++) = x.at[lowest_bit(bits)];                                   \
     }
 #endif
-PACKED_STORE(store_packed, global, Scalar, Real, RealLanes, COMPRESS_REAL)
-PACKED_STORE(store_packed_int, global, int, Int, IntLanes, COMPRESS_INT)
-PACKED_STORE(store_packed_private, , Scalar, Real, RealLanes, COMPRESS_REAL)
-PACKED_STORE(store_packed_private_int, , int, Int, IntLanes, COMPRESS_INT)
+PACKED_STORE(store_packed, global, AT, Scalar, Real, RealLanes, COMPRESS_REAL)
+PACKED_STORE(store_packed_int, global, AT, int, Int, IntLanes, COMPRESS_INT)
+PACKED_STORE(store_packed_private, , PRIVATE_AT, Scalar, Real, RealLanes, COMPRESS_REAL)
+PACKED_STORE(store_packed_private_int, , PRIVATE_AT, int, Int, IntLanes, COMPRESS_INT)
 
 #if LANES == 1
 // -------------------------------------------------------------------------------------------------
 // one lane
-FN Real gather(global const float* p, Int index) { return p[index]; }
+FN Real gather(global const float* p, Int index) { return AT(global const float, p, index); }
 #ifdef PARHELION_REAL_IS_DOUBLE
-FN Real gather(const Scalar* p, Int index) { return p[index]; }
+FN Real gather(const Scalar* p, Int index) { return AT(const Scalar, p, index); }
 #endif
-FN Int gather_int(global const int* p, Int index) { return p[index]; }
+FN Int gather_int(global const int* p, Int index) { return AT(global const int, p, index); }
 FN void scatter_add(global Scalar* p, Int index, Real v, uint bits) {
-    if (bits) p[index] += v;
+    if (bits) AT(global Scalar, p, index) += v;
 }
 FN void scatter_add3(global Scalar* p, long stride, Int index, vec3 v, uint bits) {
     scatter_add(p, index, v.x, bits);
@@ -113,7 +113,7 @@ FN Real gather(global const float* p, Int index) {
     RealLanes r;
     i.lanes = index;
     for (int k = 0; k < LANES; k++)
-        r.at[k] = p[i.at[k]];
+        r.at[k] = AT(global const float, p, i.at[k]);
     return r.lanes;
 }
 #endif
@@ -138,7 +138,7 @@ FN void scatter_add(global float* p, Int index, Real v, uint bits) {
 #endif
     for (; bits; bits &= bits - 1) {
         int k = lowest_bit(bits);
-        p[i.at[k]] += x.at[k];
+        AT(global float, p, i.at[k]) += x.at[k];
     }
 }
 
@@ -152,10 +152,9 @@ FN void scatter_add3(global float* p, long stride, Int index, vec3 v, uint bits)
     z.lanes = v.z;
     for (; bits; bits &= bits - 1) {
         int k = lowest_bit(bits);
-        global float* at = p + i.at[k];
-        at[0] += x.at[k];
-        at[stride] += y.at[k];
-        at[2 * stride] += z.at[k];
+        AT(global float, p, i.at[k]) += x.at[k];
+        AT(global float, p + stride, i.at[k]) += y.at[k];
+        AT(global float, p + 2 * stride, i.at[k]) += z.at[k];
     }
 }
 
@@ -186,7 +185,7 @@ FN Record load_record(global const float* records, Int index) {
     float16 a[16], b[16];
 #pragma unroll
     for (int k = 0; k < 16; k++)
-        a[k] = rows[i.at[k]];
+        a[k] = AT(global const float16, rows, i.at[k]);
 #pragma unroll
     for (int k = 0; k < 16; k += 2) {
         b[k] = PAIRS_LOW(a[k], a[k + 1]);
@@ -224,9 +223,11 @@ FN Record load_record(global const float* records, Int index) {
 
 // The fields of a record by name, from the list in types.h.
 #if LANES == 1
-#define RECORD_FIELD(type, name) s.name = records[index].name;
+#define RECORD_FIELD(type, name) s.name = record->name;
 #define LOADER(Struct, FIELDS, UNPACK, ENUM)                                                       \
     FN Struct load_##Struct(global const Struct##Record* records, Int index) {                     \
+        global const Struct##Record* record =                                                      \
+            IN_BUFFER(global const Struct##Record, records, index);                                \
         Struct s;                                                                                  \
         FIELDS(RECORD_FIELD)                                                                       \
         return s;                                                                                  \

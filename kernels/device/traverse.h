@@ -164,7 +164,7 @@ FN void walk_alone(RayWalk* w, WalkStack* stack, global const BvhNode* nodes,
     while (code != WALK_ENDS) {
         int next = WALK_ENDS;
         if (code >= 0) {
-            next = walk_node(w, stack, nodes + code, any_hit);
+            next = walk_node(w, stack, IN_BUFFER(global const BvhNode, nodes, code), any_hit);
         } else {
             global const BvhLine* leaf = leaf_at(leaves, code);
             leaf_hits(w, leaf, LEAF_FORM(code), any_hit, &hits);

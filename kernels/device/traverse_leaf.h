@@ -7,7 +7,7 @@
 // Where a leaf's child code says that it is, and its form there.
 #define LEAF_FORM(code) (~(code)&3)
 FN global const BvhLine* leaf_at(global const BvhLine* leaves, int code) {
-    return leaves + (~code >> 2);
+    return IN_BUFFER(global const BvhLine, leaves, ~code >> 2);
 }
 
 #define LEAF_ROW(row) LOAD_REAL(leaf->rows[row] + group * LANES)

@@ -105,7 +105,7 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* 
                 open &= ~maskBits(found);
             }
         } else {
-            global const BvhNode* node = nodes + code;
+            global const BvhNode* node = IN_BUFFER(global const BvhNode, nodes, code);
             RealLanes entry[LANE_GROUPS];
             uint candidates =
                 bounds.coherent ? packet_cull(node, &bounds, entry) : present_children(node, entry);

@@ -129,7 +129,8 @@ FN void traverse_stream(global const BvhNode* nodes, global const BvhLine* leave
         int count = at.node;
         for (int k = 0; k < count; k++) {
             int i = s.at_node[k];
-            next[k] = walk_node(&s.walk[i], &s.stack[i], nodes + s.code[i], any_hit);
+            next[k] = walk_node(&s.walk[i], &s.stack[i],
+                                IN_BUFFER(global const BvhNode, nodes, s.code[i]), any_hit);
         }
         at.node = 0;
         for (int k = 0; k < count; k++) {

@@ -71,7 +71,8 @@ inline Geometry example_triangle(glm::dvec3 at, int which) {
 }
 inline Geometry example_sphere(glm::dvec3 at, int which) { return Sphere{at, which ? 0.25 : 0.35}; }
 inline Geometry example_disk(glm::dvec3 at, int which) {
-    return Disk{at, {0.3, 0, which ? 0.1 : 0.0}, {0, 0.35, 0.1}, which == 1};
+    // The first shows its back.
+    return Disk{at, {0.3, 0, which ? 0.1 : 0.0}, {0, 0.35, 0.1}, which == 0};
 }
 using ExampleShape = Geometry (*)(glm::dvec3, int);
 #define EXAMPLE_GEOMETRY(name) example_##name,
