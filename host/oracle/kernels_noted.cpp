@@ -20,6 +20,7 @@ struct Kernels : WorkItem {
 #include "device/lanes_memory.h"
 #include "device/light_table.h"
 #include "device/path_state.h"
+#include "device/path_vertex.h"
 
     static Triple triple(vec3 v) { return {v.x, v.y, v.z}; }
 
