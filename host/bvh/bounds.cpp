@@ -51,7 +51,23 @@ std::array<Interval, 3> extents(const PrimitiveRecord& p) {
     }
 }
 
+double longest_side(const std::array<Interval, 3>& box) {
+    double longest = 0;
+    for (const Interval& i : box)
+        longest = std::max(longest, double(i.high) - i.low);
+    return longest;
+}
+
+/// Larger by so much on both sides, and rounded outward.
+Interval widened(Interval i, double margin) {
+    constexpr double most = std::numeric_limits<float>::max();
+    return {std::nextafter(float(std::max(i.low - margin, -most)), -infinite),
+            std::nextafter(float(std::min(i.high + margin, most)), infinite)};
+}
+
 } // namespace
+
+float longest_side(const PrimitiveRecord& p) { return float(longest_side(extents(p))); }
 
 bool can_be_hit(const PrimitiveRecord& p) {
     if (geometry_kind(p) != geometry_triangle) return true;
@@ -62,6 +78,9 @@ bool can_be_hit(const PrimitiveRecord& p) {
 
 Reference make_reference(const PrimitiveRecord& primitive, int number) {
     std::array<Interval, 3> e = extents(primitive);
+    double margin = longest_side(e) * double(BOX_MARGIN);
+    for (Interval& i : e)
+        i = widened(i, margin);
     Float4 low = {e[0].low, e[1].low, e[2].low, hide_integer(number)};
     Float4 high = {e[0].high, e[1].high, e[2].high, hide_integer(geometry_kind(primitive))};
     return {{low, high}};

@@ -65,7 +65,11 @@ inline int geometry_kind(const PrimitiveRecord& primitive) {
 /// would have no normal (`extra` is 0 for the same triangles).
 bool can_be_hit(const PrimitiveRecord& primitive);
 
-/// Box and number of a primitive: exact for a triangle, rounded outward for a sphere or a disk.
+/// The longest side of a primitive's own box.
+float longest_side(const PrimitiveRecord& primitive);
+
+/// Box and number of a primitive. The box is larger than the primitive's own by BOX_MARGIN of its
+/// longest side: what rounding does to a hit (kernels/shared/intersect.h).
 Reference make_reference(const PrimitiveRecord& primitive, int number);
 
 } // namespace parhelion

@@ -56,6 +56,16 @@ std::optional<std::uint32_t> corner_bits(const PrimitiveRecord& p, CornerTable& 
     return std::uint32_t(a | b << 4 | c << 8);
 }
 
+/// Bit k says whether word k of a leaf has BVH_SIZE_BIT: the upper half of a float above all sides
+/// of the triangles.
+std::uint32_t size_bits(std::span<const Reference> references,
+                        std::span<const PrimitiveRecord> primitives) {
+    float longest = 0;
+    for (const Reference& r : references)
+        longest = std::max(longest, longest_side(primitive_of(r, primitives)));
+    return (std::bit_cast<std::uint32_t>(longest) >> 16) + 1;
+}
+
 std::optional<BvhPatch> make_patch(std::span<const Reference> references,
                                    std::span<const PrimitiveRecord> primitives) {
     if (references.front().kind() != geometry_triangle) return std::nullopt;
@@ -67,8 +77,9 @@ std::optional<BvhPatch> make_patch(std::span<const Reference> references,
     if (highest->primitive() - first >= 1 << BVH_PATCH_NUMBERS) return std::nullopt;
     BvhPatch patch{};
     CornerTable corners;
+    std::uint32_t size = size_bits(references, primitives);
     for (std::size_t k = 0; k < BVH_WIDTH; k++) {
-        std::uint32_t word = (base >> k & 1) << 31;
+        std::uint32_t word = (base >> k & 1) << 31 | (size >> k & 1) << BVH_SIZE_BIT;
         if (k < references.size()) {
             auto bits = corner_bits(primitive_of(references[k], primitives), corners);
             if (!bits) return std::nullopt;
@@ -88,12 +99,20 @@ std::array<float, 9> leaf_column(const PrimitiveRecord& p) {
 BvhLeaf make_leaf(std::span<const Reference> references,
                   std::span<const PrimitiveRecord> primitives) {
     BvhLeaf leaf{};
-    std::fill_n(leaf.primitive, BVH_WIDTH, -1);
-    for (std::size_t i = 0; i < references.size(); i++) {
+    bool triangles = references.front().kind() == geometry_triangle;
+    std::uint32_t size = triangles ? size_bits(references, primitives) : 0;
+    for (std::size_t i = 0; i < BVH_WIDTH; i++) {
+        int bit = int(size >> i & 1) << BVH_SIZE_BIT;
+        if (i >= references.size()) {
+            leaf.primitive[i] = std::numeric_limits<int>::min() | bit;
+            continue;
+        }
         std::array<float, 9> column = leaf_column(primitive_of(references[i], primitives));
         for (std::size_t row = 0; row < column.size(); row++)
             leaf.rows[row][i] = column[row];
-        leaf.primitive[i] = references[i].primitive();
+        if (primitive_of(references[i], primitives).flags & PRIMITIVE_FLIPPED)
+            bit |= 1 << BVH_SIZE_BIT;
+        leaf.primitive[i] = references[i].primitive() | bit;
     }
     return leaf;
 }

@@ -7,6 +7,7 @@
 struct PlainHit {
     Real t, b1, b2;
     int primitive; // -1: nothing
+    Real rank;     // Intersection
 };
 
 /// The number of each primitive of a leaf.
@@ -22,17 +23,19 @@ void plain_leaf(const BvhLine* leaf, int form, Visit visit) {
                 visit(static_cast<int>(base << BVH_PATCH_BASE) +
                       ((word >> BVH_PATCH_CORNERS) & ((1 << BVH_PATCH_NUMBERS) - 1)));
     } else {
-        for (int number : reinterpret_cast<const BvhLeaf*>(leaf)->primitive)
-            if (number >= 0) visit(number);
+        for (int word : reinterpret_cast<const BvhLeaf*>(leaf)->primitive)
+            if (word >= 0) visit(BVH_LEAF_NUMBER(word));
     }
 }
 
 Intersection plain_primitive(const PacketRay& r, const Primitive& p, Real t_max) {
     if (primitive_kind(p) == geometry_sphere)
-        return intersect_sphere(sub3(r.origin, primitive_a(p)), r.direction, p.extra, t_max);
+        return ranked(intersect_sphere(sub3(r.origin, primitive_a(p)), r.direction, p.extra, t_max),
+                      (p.flags & PRIMITIVE_FLIPPED) != 0);
     if (primitive_kind(p) == geometry_disk)
-        return intersect_disk(sub3(primitive_a(p), r.origin), r.direction, primitive_b(p),
-                              primitive_c(p), t_max);
+        return ranked(intersect_disk(sub3(primitive_a(p), r.origin), r.direction, primitive_b(p),
+                                     primitive_c(p), t_max),
+                      (p.flags & PRIMITIVE_FLIPPED) != 0);
     Corners v = {rename_axes(r, primitive_a(p)), rename_axes(r, primitive_b(p)),
                  rename_axes(r, primitive_c(p))};
     return intersect_triangle(v, r.shear, t_max);
@@ -63,24 +66,25 @@ int plain_children(const BvhNode& node, const PacketRay& r, Real t_max, int* sta
     return top;
 }
 
-/// The closest hit in ]0, t_max], or with any_hit some hit; of two at one distance the lower
+/// The hit of least rank in ]0, t_max], or with any_hit some hit; of two of one rank the lower
 /// number.
 PlainHit plain_walk(const BvhNode* nodes, const BvhLine* leaves, const PrimitiveRecord* primitives,
                     int root, const PacketRay& r, Real t_max, int excluded, bool any_hit) {
-    PlainHit hit = {t_max, 0, 0, -1};
+    PlainHit hit = {t_max, 0, 0, -1, any_hit ? t_max : rank_of_end(t_max)};
     int stack[BVH_STACK];
     stack[0] = root;
     for (int top = 1; top > 0 && !(any_hit && hit.primitive >= 0);) {
         int code = stack[--top];
         if (code >= 0) {
-            top = plain_children(AT(const BvhNode, nodes, code), r, hit.t, stack, top);
+            top = plain_children(AT(const BvhNode, nodes, code), r, hit.rank, stack, top);
             continue;
         }
         plain_leaf(IN_BUFFER(const BvhLine, leaves, ~code >> 2), ~code & 3, [&](int number) {
             if (number == excluded) return;
-            Intersection i = plain_primitive(r, load_Primitive(primitives, number), hit.t);
-            bool closer = i.hit && (i.t < hit.t || hit.primitive < 0 || number < hit.primitive);
-            if (closer) hit = {i.t, i.b1, i.b2, number};
+            Intersection i = plain_primitive(r, load_Primitive(primitives, number), hit.rank);
+            bool first = i.rank == hit.rank && (hit.primitive < 0 || number < hit.primitive);
+            if (i.hit && (any_hit || i.rank < hit.rank || first))
+                hit = {i.t, i.b1, i.b2, number, i.rank};
         });
     }
     return hit;

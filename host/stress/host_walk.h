@@ -23,6 +23,7 @@ struct Ray {
 struct Hit {
     float t = std::numeric_limits<float>::infinity();
     int primitive = -1;
+    float rank = std::numeric_limits<float>::infinity(); ///< f32::Intersection
 
     bool operator==(const Hit&) const = default;
 };
@@ -60,23 +61,27 @@ inline f32::vec3 to_vec3(const Vector& v) { return f32::v3(v[0], v[1], v[2]); }
 
 /// One primitive, given as a leaf's column of nine numbers.
 inline f32::Intersection intersect(int kind, const std::array<float, 9>& p, const ReadyRay& r,
-                                   float t_max) {
+                                   float t_max, bool flipped = false) {
     f32::vec3 origin = to_vec3(r.ray.origin), direction = to_vec3(r.ray.direction),
               centre = f32::v3(p[0], p[1], p[2]);
     if (kind == geometry_sphere)
-        return f32::intersect_sphere(f32::sub3(origin, centre), direction, p[3], t_max);
+        return f32::ranked(f32::intersect_sphere(f32::sub3(origin, centre), direction, p[3], t_max),
+                           flipped);
     if (kind == geometry_disk)
-        return f32::intersect_disk(f32::sub3(centre, origin), direction, f32::v3(p[3], p[4], p[5]),
-                                   f32::v3(p[6], p[7], p[8]), t_max);
+        return f32::ranked(f32::intersect_disk(f32::sub3(centre, origin), direction,
+                                               f32::v3(p[3], p[4], p[5]), f32::v3(p[6], p[7], p[8]),
+                                               t_max),
+                           flipped);
     f32::Corners corners = {r.renamed(p[0], p[1], p[2]), r.renamed(p[3], p[4], p[5]),
                             r.renamed(p[6], p[7], p[8])};
     return f32::intersect_triangle(corners, r.shear, t_max);
 }
 
-/// The nearer hit wins, of equally near ones that of the lower number.
+/// The hit of least rank wins, of equal ones that of the lower number.
 inline void take(Hit& hit, const f32::Intersection& i, int primitive) {
-    if (!i.hit || i.t > hit.t) return;
-    if (i.t < hit.t || hit.primitive < 0 || primitive < hit.primitive) hit = {i.t, primitive};
+    if (!i.hit || i.rank > hit.rank) return;
+    if (i.rank < hit.rank || hit.primitive < 0 || primitive < hit.primitive)
+        hit = {i.t, primitive, i.rank};
 }
 
 inline int kind_of(const PrimitiveRecord& p) { return p.flags & PRIMITIVE_KIND_MASK; }
@@ -90,7 +95,9 @@ inline Hit brute_force(std::span<const PrimitiveRecord> primitives, const Ray& r
     ReadyRay ready(ray);
     Hit hit;
     for (std::size_t i = 0; i < primitives.size(); i++)
-        take(hit, intersect(kind_of(primitives[i]), column_of(primitives[i]), ready, hit.t),
+        take(hit,
+             intersect(kind_of(primitives[i]), column_of(primitives[i]), ready, hit.rank,
+                       primitives[i].flags & PRIMITIVE_FLIPPED),
              int(i));
     return hit;
 }
@@ -100,15 +107,16 @@ struct Leaf {
     int kind, lines;
     std::array<std::array<float, 9>, BVH_WIDTH> column{};
     std::array<int, BVH_WIDTH> primitive;
+    std::array<bool, BVH_WIDTH> flipped{}; ///< spheres and disks
 };
 
 inline Leaf read_patch(const BvhPatch& patch) {
-    Leaf leaf{geometry_triangle, sizeof(BvhPatch) / sizeof(BvhLine), {}, {}};
+    Leaf leaf{geometry_triangle, sizeof(BvhPatch) / sizeof(BvhLine), {}, {}, {}};
     int base = 0;
     for (int k = 0; k < BVH_WIDTH; k++)
         base |= (patch.triangle[k] < 0) << (k + BVH_PATCH_BASE);
     for (std::size_t k = 0; k < BVH_WIDTH; k++) {
-        int word = patch.triangle[k] & 0x7fffffff;
+        int word = patch.triangle[k] & 0x3fffffff;
         bool absent = word % (1 << BVH_PATCH_CORNERS) == 0;
         leaf.primitive[k] = absent ? -1 : base + (word >> BVH_PATCH_CORNERS);
         for (std::size_t i = 0; i < 9 && !absent; i++)
@@ -127,9 +135,10 @@ inline Leaf read_leaf(const Bvh& bvh, int child) {
     }
     BvhLeaf stored;
     std::memcpy(&stored, lines, sizeof stored);
-    Leaf leaf{form, sizeof(BvhLeaf) / sizeof(BvhLine), {}, {}};
+    Leaf leaf{form, sizeof(BvhLeaf) / sizeof(BvhLine), {}, {}, {}};
     for (std::size_t k = 0; k < BVH_WIDTH; k++) {
-        leaf.primitive[k] = stored.primitive[k];
+        leaf.primitive[k] = std::max(-1, BVH_LEAF_NUMBER(stored.primitive[k]));
+        leaf.flipped[k] = form != geometry_triangle && (stored.primitive[k] >> BVH_SIZE_BIT & 1);
         for (std::size_t row = 0; row < 9; row++)
             leaf.column[k][row] = stored.rows[row][k];
     }
@@ -165,12 +174,13 @@ inline Hit walk(const Bvh& bvh, int root, const Ray& ray, std::size_t* peak = nu
     while (!stack.empty()) {
         Entry current = stack.back();
         stack.pop_back();
-        if (current.entry > hit.t * float(HIT_WIDENING)) continue;
+        if (current.entry > hit.rank * float(HIT_WIDENING)) continue;
         if (current.child < 0) {
             Leaf leaf = read_leaf(bvh, current.child);
             for (std::size_t k = 0; k < BVH_WIDTH; k++)
                 if (leaf.primitive[k] >= 0)
-                    take(hit, intersect(leaf.kind, leaf.column[k], ready, hit.t),
+                    take(hit,
+                         intersect(leaf.kind, leaf.column[k], ready, hit.rank, leaf.flipped[k]),
                          leaf.primitive[k]);
             continue;
         }
@@ -178,7 +188,7 @@ inline Hit walk(const Bvh& bvh, int root, const Ray& ray, std::size_t* peak = nu
         std::size_t first = stack.size();
         for (int k = 0; k < BVH_WIDTH; k++) {
             float entry;
-            if (!meets_box(node, k, ready, hit.t * float(HIT_WIDENING), entry)) continue;
+            if (!meets_box(node, k, ready, hit.rank * float(HIT_WIDENING), entry)) continue;
             stack.push_back({node.child[k], entry});
             bool nearest = stack.size() == first + 1 || entry < stack[stack.size() - 2].entry;
             if (!nearest) std::swap(stack.back(), stack[stack.size() - 2]);

@@ -13,6 +13,9 @@ namespace parhelion::stress {
     X(leaks,          "Rays", "Rays at edges and corners of closed meshes never get out")          \
     X(brute_force,    "Rays", "The tree finds what trying every primitive finds")                  \
     X(degenerate_triangles, "Rays", "Triangles of no area are never hit, needles keep a mesh closed") \
+    X(long_triangles, "Rays", "Closed meshes of long, thin and huge triangles leak nothing, through 1, 8 and 16 lanes alike") \
+    X(random_triangles, "Rays", "Random triangles up to 1e8 times as long as wide: the hits of double precision, through 1, 8 and 16 lanes alike") \
+    X(doubled_faces, "Rays", "Of two faces at one place that look opposite ways the ray hits the one that faces it") \
     X(self_hits,      "Rays", "Rays that leave a triangle hit neither it nor what lies in its plane") \
     X(occlusion,      "Rays", "Shadow rays are blocked by what is in their way and by nothing else") \
     X(nested_spheres, "Rays", "Of two spheres 4e-6 apart the nearer one shows") \

@@ -37,13 +37,16 @@ FN PacketRay packet_ray(vec3 origin, vec3 direction, float extent) {
 
 typedef struct {
     Real t, b1, b2;
+    Real rank;
     Int primitive; // NO_PRIMITIVE: nothing
 } PacketHit;
 
-/// Takes the hits of one primitive that are closer; of those at one distance the lower number wins.
+/// Takes the hits of one primitive that rank lower; of those of one rank the lower number wins.
 FN void packet_closer(PacketHit* hit, Intersection i, int number, Mask hits) {
-    Mask closer = hits & ((i.t < hit->t) | ((Int)number < hit->primitive));
+    Mask closer =
+        hits & ((i.rank < hit->rank) | ((i.rank == hit->rank) & ((Int)number < hit->primitive)));
     hit->t = sel(closer, i.t, hit->t);
+    hit->rank = sel(closer, i.rank, hit->rank);
     hit->b1 = sel(closer, i.b1, hit->b1);
     hit->b2 = sel(closer, i.b2, hit->b2);
     hit->primitive = sel(closer, (Int)number, hit->primitive);

@@ -1,8 +1,8 @@
 // One ray's walk through the wide BVH, a step at a time: LANES children or primitives each; closest
 // hit and any hit are one body.
 //
-// Boxes are widened and triangles are watertight, so no hit is lost; of two hits at the same
-// distance the lower primitive number wins, so the answer does not depend on the order of the walk.
+// Boxes are widened and triangles are watertight, so no hit is lost; of two hits of the same rank
+// the lower primitive number wins, so the answer does not depend on the order of the walk.
 #ifndef PARHELION_TRAVERSE_H
 #define PARHELION_TRAVERSE_H
 
@@ -21,6 +21,7 @@
 typedef struct {
     TraversalRay ray;
     float t, b1, b2; // the closest hit so far, or the end of the ray
+    float rank;      // of it (Intersection); all that ranks higher is left out
     int primitive;   // NO_PRIMITIVE: nothing
     int excluded;    // the primitive that the ray may not hit
     int top;         // entries on the walk's stack
@@ -32,8 +33,10 @@ typedef struct {
     float entry[WALK_STACK];
 } WalkStack;
 
-FN void walk_start(RayWalk* w, WalkStack* stack, TraversalRay ray, float t_max, int excluded) {
+FN void walk_start(RayWalk* w, WalkStack* stack, TraversalRay ray, float t_max, int excluded,
+                   int any_hit) {
     w->ray = ray;
+    w->rank = any_hit ? t_max : t_max + t_max * BACK_DELAY; // rank_of_end
     w->t = t_max, w->b1 = 0.f, w->b2 = 0.f;
     w->primitive = NO_PRIMITIVE;
     w->excluded = excluded;
@@ -46,7 +49,7 @@ FN void walk_start(RayWalk* w, WalkStack* stack, TraversalRay ray, float t_max, 
 FN int walk_pop(RayWalk* w, const WalkStack* stack, int any_hit) {
     do
         w->top--;
-    while (!any_hit && stack->entry[w->top] > w->t * (float)HIT_WIDENING);
+    while (!any_hit && stack->entry[w->top] > w->rank * (float)HIT_WIDENING);
     return stack->child[w->top];
 }
 
@@ -81,7 +84,7 @@ FN int walk_node(RayWalk* w, WalkStack* stack, global const BvhNode* node, int a
     int next = WALK_ENDS;
     float next_entry = 0.f;
     for (int group = 0; group < LANE_GROUPS; group++) {
-        BoxOverlap box = node_overlap(node, group, &w->ray, w->t * (float)HIT_WIDENING);
+        BoxOverlap box = node_overlap(node, group, &w->ray, w->rank * (float)HIT_WIDENING);
         uint bits = maskBits(box.meets);
         global const int* child = node->child + group * LANES;
         if (any_hit) {
@@ -110,6 +113,7 @@ FN int walk_node(RayWalk* w, WalkStack* stack, global const BvhNode* node, int a
 typedef struct {
     uint bits;     // with the doubtful
     uint doubtful; // walk_take settles them
+    uint back;     // those whose back the ray sees
     RealLanes t[LANE_GROUPS], b1[LANE_GROUPS], b2[LANE_GROUPS];
 } LeafHits;
 
@@ -117,19 +121,24 @@ FN void leaf_hits(const RayWalk* w, global const BvhLine* leaf, int form, int an
                   LeafHits* hits) {
     PatchCorners corners;
     if (form == BVH_PATCH) patch_corners((global const BvhPatch*)leaf, &w->ray, &corners);
-    hits->bits = hits->doubtful = 0;
+    hits->bits = hits->doubtful = hits->back = 0;
+    int triangles = form == BVH_PATCH || form == geometry_triangle;
+    float size = leaf_size(form == BVH_PATCH ? ((global const BvhPatch*)leaf)->triangle
+                                             : ((global const BvhLeaf*)leaf)->primitive);
     for (int group = 0; group < LANE_GROUPS; group++) {
         TriangleHit h = form == BVH_PATCH ? patch_triangles((global const BvhPatch*)leaf, &corners,
-                                                            group, &w->ray, w->t, any_hit)
+                                                            group, &w->ray, size, w->rank, any_hit)
                                           : leaf_group((global const BvhLeaf*)leaf, form, group,
-                                                       &w->ray, w->t, any_hit);
+                                                       &w->ray, size, w->rank, any_hit);
         hits->bits |= maskBits(h.hit | h.doubtful) << (group * LANES);
         hits->doubtful |= maskBits(h.doubtful) << (group * LANES);
         if (any_hit) continue;
+        hits->back |= maskBits(h.determinant < R(0.)) << (group * LANES);
         hits->t[group].lanes = h.t;
         hits->b1[group].lanes = h.b1;
         hits->b2[group].lanes = h.b2;
     }
+    if (triangles && w->ray.shear[2] < 0.f) hits->back = ~hits->back; // sees_back
 }
 
 /// Takes the hits of a leaf; whether the walk is over: for any hit the first one ends it.
@@ -139,18 +148,24 @@ FN int walk_take(RayWalk* w, global const BvhLine* leaf, int form, const LeafHit
         int k = lowest_bit(bits), number = leaf_number(leaf, form, k);
         if (number == w->excluded) continue;
         int group = k / LANES, lane = k % LANES;
-        float t = any_hit ? 0.f : hits->t[group].at[lane];
+        SingleHit hit = {0.f, 0.f, 0.f, 0.f};
         if (RARELY((hits->doubtful >> k) & 1)) {
             TraversalRay ray = w->ray; // so that the walk itself may stay in registers
-            t = settled_distance(leaf, form, k, &ray, w->t, any_hit);
-            if (t < 0.f) continue;
+            SingleHit settled;
+            settle_single(leaf, form, k, &ray, w->rank, any_hit, &settled);
+            if (settled.t < 0.f) continue;
+            hit = settled;
+        } else if (!any_hit) {
+            hit.t = hit.rank = hits->t[group].at[lane];
+            hit.b1 = hits->b1[group].at[lane], hit.b2 = hits->b2[group].at[lane];
+            if ((hits->back >> k) & 1) hit.rank += leaf_back_delay(leaf, form, k, &w->ray, hit.t);
         }
         if (any_hit) {
             w->primitive = 0;
             return 1;
         }
-        if (t < w->t || (t == w->t && number < w->primitive)) {
-            w->t = t, w->b1 = hits->b1[group].at[lane], w->b2 = hits->b2[group].at[lane];
+        if (hit.rank < w->rank || (hit.rank == w->rank && number < w->primitive)) {
+            w->rank = hit.rank, w->t = hit.t, w->b1 = hit.b1, w->b2 = hit.b2;
             w->primitive = number;
         }
     }

@@ -1,5 +1,6 @@
-// Triangles of which rounding leaves open whether a ray has them ahead or behind (shared/
-// intersect.h): once more from their corners, one triangle in all lanes.
+// Triangles of which rounding leaves open whether a ray passes inside, or has them ahead or behind
+// (shared/intersect_edges.h, intersect_triangle.h): once more from their corners, one triangle in
+// all lanes.
 //
 // Functions of their own, which read the corners again: what is rarely needed takes no registers
 // from what is always.
@@ -31,19 +32,47 @@ FN Corners triangle_corners(const int* axis, global const BvhLine* lines, int fo
     return v;
 }
 
-/// Of one ray; for any hit 0; below 0 where the triangle is not hit.
-FN_APART float settled_distance(global const BvhLine* leaf, int form, int k,
-                                const TraversalRay* ray, float t_max, int any_hit) {
+/// A hit of one ray: t is below 0 where there is none, and for any hit 0 where there is one.
+typedef struct {
+    float t, b1, b2, rank;
+} SingleHit;
+
+FN_APART void settle_single(global const BvhLine* leaf, int form, int k, const TraversalRay* ray,
+                            float t_max, int any_hit, SingleHit* hit) {
     RayShear shear = single_shear(ray);
     Corners v = triangle_corners(ray->axis, leaf, form, k);
-    RealLanes t;
+    RealLanes t, b1, b2, rank;
     if (any_hit) {
         t.lanes = sel(triangle_occludes(v, shear, (Real)t_max), R(0.), R(-1.));
-    } else {
-        Intersection i = intersect_triangle(v, shear, (Real)t_max);
-        t.lanes = sel(i.hit, i.t, R(-1.));
+        hit->t = t.at[0];
+        return;
     }
-    return t.at[0];
+    Intersection i = intersect_triangle(v, shear, (Real)t_max);
+    t.lanes = sel(i.hit, i.t, R(-1.));
+    b1.lanes = i.b1, b2.lanes = i.b2, rank.lanes = i.rank;
+    hit->t = t.at[0], hit->b1 = b1.at[0], hit->b2 = b2.at[0], hit->rank = rank.at[0];
+}
+
+/// How much farther than its distance the back of primitive k of a leaf ranks, as in
+/// intersect_triangle and ranked().
+FN float leaf_back_delay(global const BvhLine* lines, int form, int k, const TraversalRay* ray,
+                         float t) {
+    if (form != BVH_PATCH && form != geometry_triangle) return t * BACK_DELAY;
+    int z = ray->axis[2], a = k, b = k, c = k;
+    global const float(*rows)[BVH_WIDTH] = ((global const BvhLeaf*)lines)->rows + z;
+    int step = 3;
+    if (form == BVH_PATCH) {
+        global const BvhPatch* patch = (global const BvhPatch*)lines;
+        int places = patch->triangle[k];
+        a = places & 15, b = (places >> 4) & 15, c = (places >> 8) & 15;
+        rows = patch->corner + z;
+        step = 0;
+    }
+#define ONE_LARGER(x, y) ((x) > (y) ? (x) : (y))
+#define ONE_SIZE(x) ((x) < 0.f ? -(x) : (x))
+    float za = ONE_SIZE(rows[0][a] - ray->origin[z]), zb = ONE_SIZE(rows[step][b] - ray->origin[z]),
+          zc = ONE_SIZE(rows[2 * step][c] - ray->origin[z]);
+    return ONE_LARGER(za, ONE_LARGER(zb, zc)) * (ONE_SIZE(ray->shear[2]) * BACK_DELAY);
 }
 
 FN Corners packet_corners(PacketRay r, global const BvhLine* leaf, int form, int k) {
@@ -63,10 +92,10 @@ FN_APART void settle_packet(Mask* lanes, global const BvhLine* leaf, int form, u
         Mask wanted = *lanes & (*excluded != number);
         Corners v = packet_corners(*r, leaf, form, k);
         if (any_hit) {
-            found = found | (wanted & triangle_occludes(v, r->shear, hit->t));
+            found = found | (wanted & triangle_occludes(v, r->shear, hit->rank));
             continue;
         }
-        Intersection i = intersect_triangle(v, r->shear, hit->t);
+        Intersection i = intersect_triangle(v, r->shear, hit->rank);
         packet_closer(hit, i, number, i.hit & wanted);
         found = found | (i.hit & wanted);
     }

@@ -12,28 +12,48 @@ FN global const BvhLine* leaf_at(global const BvhLine* leaves, int code) {
 
 #define LEAF_ROW(row) LOAD_REAL(leaf->rows[row] + group * LANES)
 
-/// Corners are sheared. For any hit only whether there is one. `rarely`: most often no lane is
-/// inside the triangle, so that a branch pays. What is doubtful the caller has settled
-/// (traverse_doubt.h).
-FN TriangleHit triangle_hit(Corners s, RayShear ray, Real t_max, int any_hit, int rarely) {
-    TriangleEdges e = triangle_edges(s);
+/// The longest side of the triangles of a leaf, along an axis, rounded up (BVH_SIZE_BIT); of its
+/// primitives' words.
+FN float leaf_size(global const int* words) {
+    uint bits = 0;
+    for (int group = 0; group < LANE_GROUPS; group++)
+        bits |= maskBits((LOAD_INT(words + group * LANES) << (31 - BVH_SIZE_BIT)) < 0)
+                << (group * LANES);
+    return as_float(bits << 16);
+}
+
+/// Corners are sheared, `size` is leaf_size. For any hit only whether there is one. `rarely`: most
+/// often no lane is inside the triangle, so that a branch pays. What is doubtful the caller has
+/// settled (traverse_doubt.h).
+FN TriangleHit triangle_hit(Corners s, RayShear ray, Real size, Real t_max, int any_hit,
+                            int rarely) {
+    TriangleEdges e = triangle_edges(s, edge_margin_within(s.a.z, size));
     if (any_hit) return triangle_blocks(e, s, ray, t_max);
-    if (rarely && !someLane(e.inside)) {
+    if (rarely && !someLane(e.inside | e.open)) {
         TriangleHit none;
-        none.hit = none.doubtful = e.inside;
-        none.t = none.b1 = none.b2 = none.volume = none.determinant = R(0.);
+        none.hit = none.doubtful = lanesOf(0);
+        none.t = none.rank = none.b1 = none.b2 = none.volume = none.determinant = R(0.);
         return none;
     }
     return triangle_distance(e, s, ray, t_max);
 }
 
-/// A sphere or a disk, of whose hits none is doubtful.
+/// With the rank of backs as intersect_triangle has it; `s`: corners, sheared.
+FN TriangleHit ranked_backs(TriangleHit h, Corners s, RayShear ray) {
+    Mask back = h.hit & sees_back(h.determinant, ray);
+    if (someLane(back)) h.rank = sel(back, h.t + back_delay(s.a.z, s.b.z, s.c.z, ray.shear_z), h.t);
+    return h;
+}
+
+/// A sphere or a disk, of whose hits none is doubtful. The determinant is negative where its back
+/// is seen.
 FN TriangleHit certain_hit(Intersection i) {
     TriangleHit h;
     h.hit = i.hit;
     h.doubtful = lanesOf(0);
-    h.t = i.t, h.b1 = i.b1, h.b2 = i.b2;
-    h.volume = h.determinant = R(0.);
+    h.t = i.t, h.rank = i.rank, h.b1 = i.b1, h.b2 = i.b2;
+    h.volume = R(0.);
+    h.determinant = sel(i.back, R(-1.), R(1.));
     return h;
 }
 
@@ -51,8 +71,14 @@ FN RayShear single_shear(const TraversalRay* ray) {
     return shear;
 }
 
+/// Places without a triangle are at no time inside, but open.
+FN TriangleHit present(TriangleHit h, Mask there) {
+    h.doubtful = h.doubtful & there;
+    return h;
+}
+
 FN TriangleHit leaf_triangles(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
-                              float t_max, int any_hit) {
+                              float size, float t_max, int any_hit) {
     int x = ray->axis[0], y = ray->axis[1], z = ray->axis[2];
     RayShear shear = single_shear(ray);
 #define LEAF_CORNER(first)                                                                         \
@@ -61,7 +87,8 @@ FN TriangleHit leaf_triangles(global const BvhLeaf* leaf, int group, const Trave
     s.a = LEAF_CORNER(0);
     s.b = LEAF_CORNER(3);
     s.c = LEAF_CORNER(6);
-    return triangle_hit(s, shear, (Real)t_max, any_hit, 0);
+    return present(triangle_hit(s, shear, (Real)size, (Real)t_max, any_hit, 0),
+                   LOAD_INT(leaf->primitive + group * LANES) >= 0);
 }
 
 /// The corners of a patch as the ray sees them.
@@ -83,13 +110,14 @@ FN vec3 patch_corner(const PatchCorners* c, Int place) {
 }
 
 FN TriangleHit patch_triangles(global const BvhPatch* patch, const PatchCorners* corners, int group,
-                               const TraversalRay* ray, float t_max, int any_hit) {
+                               const TraversalRay* ray, float size, float t_max, int any_hit) {
     Int places = LOAD_INT(patch->triangle + group * LANES);
     Corners s;
     s.a = patch_corner(corners, places);
     s.b = patch_corner(corners, places >> 4);
     s.c = patch_corner(corners, places >> 8);
-    return triangle_hit(s, single_shear(ray), (Real)t_max, any_hit, 0);
+    return present(triangle_hit(s, single_shear(ray), (Real)size, (Real)t_max, any_hit, 0),
+                   (places & ((1 << BVH_PATCH_CORNERS) - 1)) != 0);
 }
 
 /// What the numbers of a patch's triangles count from.
@@ -122,17 +150,20 @@ FN Intersection leaf_disks(global const BvhLeaf* leaf, int group, const Traversa
                           edge_v, (Real)t_max);
 }
 
+// Of spheres and disks.
+#define LEAF_FLIPPED ((LOAD_INT(leaf->primitive + group * LANES) << (31 - BVH_SIZE_BIT)) < 0)
+
 FN TriangleHit leaf_group(global const BvhLeaf* leaf, int kind, int group, const TraversalRay* ray,
-                          float t_max, int any_hit) {
+                          float size, float t_max, int any_hit) {
     if (HAS(shape_sphere) && kind == geometry_sphere)
-        return certain_hit(leaf_spheres(leaf, group, ray, t_max));
+        return certain_hit(ranked(leaf_spheres(leaf, group, ray, t_max), LEAF_FLIPPED));
     if (HAS(shape_disk) && kind == geometry_disk)
-        return certain_hit(leaf_disks(leaf, group, ray, t_max));
-    return leaf_triangles(leaf, group, ray, t_max, any_hit);
+        return certain_hit(ranked(leaf_disks(leaf, group, ray, t_max), LEAF_FLIPPED));
+    return leaf_triangles(leaf, group, ray, size, t_max, any_hit);
 }
 
 FN int leaf_number(global const BvhLine* leaf, int form, int k) {
     global const BvhPatch* patch = (global const BvhPatch*)leaf;
     if (form == BVH_PATCH) return patch_number(patch, patch_base(patch), k);
-    return ((global const BvhLeaf*)leaf)->primitive[k];
+    return BVH_LEAF_NUMBER(((global const BvhLeaf*)leaf)->primitive[k]);
 }

@@ -17,8 +17,9 @@ FN uint packet_cull(global const BvhNode* node, const PacketBounds* b, RealLanes
     uint candidates = 0;
 #define NODE_PLANE(a, far) LOAD_REAL(node->bounds[b->near_row[a] ^ far] + group * LANES)
     for (int group = 0; group < LANE_GROUPS; group++) {
-        BoxOverlap box = bounds_overlap(b, v3(NODE_PLANE(0, 0), NODE_PLANE(1, 0), NODE_PLANE(2, 0)),
-                                        v3(NODE_PLANE(0, 1), NODE_PLANE(1, 1), NODE_PLANE(2, 1)));
+        BoxOverlap box =
+            bounds_overlap(b, v3(NODE_PLANE(0, 0), NODE_PLANE(1, 0), NODE_PLANE(2, 0)),
+                           v3(NODE_PLANE(0, 1), NODE_PLANE(1, 1), NODE_PLANE(2, 1)), 0.f);
         candidates |= maskBits(box.meets) << (group * LANES);
         entry[group].lanes = box.entry;
     }
@@ -59,8 +60,9 @@ FN Mask packet_overlap(global const BvhNode* node, int k, PacketRay r, const Pac
 /// The rays of `bits`, one after the other, through the tree below `code`.
 FN uint few_rays(global const BvhNode* nodes, global const BvhLine* leaves, int code,
                  const PacketLanes* lanes, Int excluded, uint bits, int any_hit, PacketHit* hit) {
-    RealLanes t, b1, b2;
+    RealLanes t, b1, b2, rank;
     IntLanes primitive, not_hit;
+    rank.lanes = hit->rank;
     t.lanes = hit->t, b1.lanes = hit->b1, b2.lanes = hit->b2;
     primitive.lanes = hit->primitive, not_hit.lanes = excluded;
     uint found = 0;
@@ -68,13 +70,14 @@ FN uint few_rays(global const BvhNode* nodes, global const BvhLine* leaves, int 
     WalkStack stack;
     for (; bits; bits &= bits - 1) {
         int k = lowest_bit(bits);
-        walk_start(&w, &stack, single_ray(lanes, k), t.at[k], not_hit.at[k]);
-        w.b1 = b1.at[k], w.b2 = b2.at[k], w.primitive = primitive.at[k];
+        walk_start(&w, &stack, single_ray(lanes, k), t.at[k], not_hit.at[k], any_hit);
+        w.rank = rank.at[k], w.b1 = b1.at[k], w.b2 = b2.at[k], w.primitive = primitive.at[k];
         walk_alone(&w, &stack, nodes, leaves, code, any_hit);
         found |= (uint)(w.primitive != NO_PRIMITIVE) << k;
-        t.at[k] = w.t, b1.at[k] = w.b1, b2.at[k] = w.b2, primitive.at[k] = w.primitive;
+        rank.at[k] = w.rank, t.at[k] = w.t, b1.at[k] = w.b1, b2.at[k] = w.b2,
+        primitive.at[k] = w.primitive;
     }
-    hit->t = t.lanes, hit->b1 = b1.lanes, hit->b2 = b2.lanes;
+    hit->rank = rank.lanes, hit->t = t.lanes, hit->b1 = b1.lanes, hit->b2 = b2.lanes;
     hit->primitive = primitive.lanes;
     return found;
 }
@@ -83,6 +86,7 @@ FN uint few_rays(global const BvhNode* nodes, global const BvhLine* leaves, int 
 FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* leaves, int root,
                              PacketRay ray, Real t_max, Int excluded, Mask active, int any_hit) {
     PacketHit hit;
+    hit.rank = any_hit ? t_max : rank_of_end(t_max);
     hit.t = t_max, hit.b1 = R(0.), hit.b2 = R(0.), hit.primitive = (Int)NO_PRIMITIVE;
     PacketBounds bounds = packet_bounds(ray, active);
     PacketLanes lanes = packet_lanes(ray);
@@ -109,7 +113,7 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* 
             RealLanes entry[LANE_GROUPS];
             uint candidates =
                 bounds.coherent ? packet_cull(node, &bounds, entry) : present_children(node, entry);
-            Real limit = hit.t * R(HIT_WIDENING);
+            Real limit = hit.rank * R(HIT_WIDENING);
             float next_entry = 0.f;
             // The nearest child is next; the others wait in no particular order.
             for (; candidates; candidates &= candidates - 1) {
@@ -137,7 +141,8 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* 
             top--;
             next = stack[top];
             next_bits = stack_bits[top] & open;
-            if (!any_hit) next_bits &= maskBits((Real)stack_entry[top] <= hit.t * R(HIT_WIDENING));
+            if (!any_hit)
+                next_bits &= maskBits((Real)stack_entry[top] <= hit.rank * R(HIT_WIDENING));
         }
         code = next, bits = next_bits;
     }

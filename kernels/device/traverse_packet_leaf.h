@@ -4,15 +4,14 @@
 #include "device/traverse_doubt.h"
 
 /// What all rays of a packet have in common: bounds of their origins and inverse directions, and
-/// whether they meet the same planes of every box first, and have their largest axis in common. Far
-/// ends are widened once more: next to a triangle's own box it counts that the triangle test rounds
-/// corners as well, by 3 u of their distance.
+/// whether they meet the same planes of every box first, and have their largest axis in common.
 typedef struct {
     int coherent, one_axis;
     int near_row[3];
     int axis[3]; // x, y, z after renaming, if one_axis
     float near_origin[3], far_origin[3], near_inverse[3], far_inverse[3];
-    float slack[3]; // of the distance, where a ray is parallel to the axis: see ray_slab
+    float slack[3];    // of the distance, where a ray is parallel to the axis: see ray_slab
+    float steepest[3]; // the largest inverse
 } PacketBounds;
 
 FN PacketBounds packet_bounds(PacketRay r, Mask active) {
@@ -31,6 +30,7 @@ FN PacketBounds packet_bounds(PacketRay r, Mask active) {
         b.near_row[a] = 2 * a + down;                                                              \
         b.near_inverse[a] = down ? high : low;                                                     \
         b.far_inverse[a] = (down ? low : high) * (float)BOX_WIDENING;                              \
+        b.steepest[a] = down ? -low : high;                                                        \
         b.near_origin[a] = down ? first : last;                                                    \
         b.far_origin[a] = down ? last : first;                                                     \
         b.slack[a] = low <= -PARALLEL_INVERSE || high >= PARALLEL_INVERSE ? PARALLEL_MARGIN : 0.f; \
@@ -49,12 +49,13 @@ FN PacketBounds packet_bounds(PacketRay r, Mask active) {
 
 /// Boxes, given by the planes that a coherent packet meets first and last, that some of its rays
 /// may meet, and where the first ray may enter them: no ray's way through a box begins before or
-/// ends after that of the bounds.
-FN BoxOverlap bounds_overlap(const PacketBounds* b, vec3 near, vec3 far) {
+/// ends after that of the bounds. The boxes are larger than given by `margin` on all sides.
+FN BoxOverlap bounds_overlap(const PacketBounds* b, vec3 near, vec3 far, float margin) {
 #define BOUNDS_DISTANCE(plane, side, a, margin)                                                    \
     fmaR(plane - (Real)b->side##_origin[a], (Real)b->side##_inverse[a], (Real)(margin))
-#define BOUNDS_NEAR(a, axis_) BOUNDS_DISTANCE(near.axis_, near, a, -b->slack[a])
-#define BOUNDS_FAR(a, axis_) BOUNDS_DISTANCE(far.axis_, far, a, b->slack[a])
+#define BOUNDS_SLACK(a) (b->slack[a] + margin * b->steepest[a])
+#define BOUNDS_NEAR(a, axis_) BOUNDS_DISTANCE(near.axis_, near, a, -BOUNDS_SLACK(a))
+#define BOUNDS_FAR(a, axis_) BOUNDS_DISTANCE(far.axis_, far, a, BOUNDS_SLACK(a))
     return box_overlap(BOUNDS_NEAR(0, x), BOUNDS_NEAR(1, y), BOUNDS_NEAR(2, z), BOUNDS_FAR(0, x),
                        BOUNDS_FAR(1, y), BOUNDS_FAR(2, z), (Real)INFINITY);
 }
@@ -75,18 +76,23 @@ FN vec3 packet_corner(global const float (*rows)[BVH_WIDTH], int k, PacketRay r,
 }
 
 FN TriangleHit packet_primitive(global const BvhLeaf* leaf, int kind, int k, PacketRay r,
-                                const PacketBounds* bounds, Real t, int any_hit) {
+                                const PacketBounds* bounds, float size, Real t, int any_hit) {
+    Mask flipped = lanesOf((uint) - ((leaf->primitive[k] >> BVH_SIZE_BIT) & 1));
     if (HAS(shape_sphere) && kind == geometry_sphere)
-        return certain_hit(intersect_sphere(sub3(r.origin, column(leaf->rows, k)), r.direction,
-                                            (Real)leaf->rows[3][k], t));
+        return certain_hit(ranked(intersect_sphere(sub3(r.origin, column(leaf->rows, k)),
+                                                   r.direction, (Real)leaf->rows[3][k], t),
+                                  flipped));
     if (HAS(shape_disk) && kind == geometry_disk)
-        return certain_hit(intersect_disk(sub3(column(leaf->rows, k), r.origin), r.direction,
-                                          column(leaf->rows + 3, k), column(leaf->rows + 6, k), t));
+        return certain_hit(
+            ranked(intersect_disk(sub3(column(leaf->rows, k), r.origin), r.direction,
+                                  column(leaf->rows + 3, k), column(leaf->rows + 6, k), t),
+                   flipped));
     Corners s;
     s.a = packet_corner(leaf->rows, k, r, bounds);
     s.b = packet_corner(leaf->rows + 3, k, r, bounds);
     s.c = packet_corner(leaf->rows + 6, k, r, bounds);
-    return triangle_hit(s, r.shear, t, any_hit, bounds->coherent);
+    TriangleHit h = triangle_hit(s, r.shear, (Real)size, t, any_hit, bounds->coherent);
+    return any_hit ? h : ranked_backs(h, s, r.shear);
 }
 
 /// Rays that hit something in a leaf, and those for which that has to be settled.
@@ -117,8 +123,9 @@ FN Mask rays_settled(LeafRays rays, global const BvhLine* leaf, int form, uint c
     return rays.found | open;
 }
 
-/// Triangles whose boxes some ray of a coherent packet may meet.
-FN Mask triangles_near(const PacketBounds* b, vec3 p, vec3 q, vec3 r) {
+/// Triangles whose boxes, larger by BOX_MARGIN, some ray of a coherent packet may meet; `size`:
+/// leaf_size.
+FN Mask triangles_near(const PacketBounds* b, vec3 p, vec3 q, vec3 r, float size) {
     vec3 near, far;
 #define TRIANGLE_BOUNDS(axis_, a)                                                                  \
     {                                                                                              \
@@ -131,11 +138,12 @@ FN Mask triangles_near(const PacketBounds* b, vec3 p, vec3 q, vec3 r) {
     TRIANGLE_BOUNDS(x, 0)
     TRIANGLE_BOUNDS(y, 1)
     TRIANGLE_BOUNDS(z, 2)
-    return bounds_overlap(b, near, far).meets;
+    return bounds_overlap(b, near, far, size * BOX_MARGIN).meets;
 }
 
 /// The triangles of a patch, or with coherent rays those that some ray may meet.
-FN uint patch_candidates(global const BvhPatch* patch, const PacketBounds* b, int coherent) {
+FN uint patch_candidates(global const BvhPatch* patch, const PacketBounds* b, float size,
+                         int coherent) {
     PatchCorners corners;
     corners.x = load_table(patch->corner[0]);
     corners.y = load_table(patch->corner[1]);
@@ -147,21 +155,22 @@ FN uint patch_candidates(global const BvhPatch* patch, const PacketBounds* b, in
         if (coherent)
             counts = counts & triangles_near(b, patch_corner(&corners, places),
                                              patch_corner(&corners, places >> 4),
-                                             patch_corner(&corners, places >> 8));
+                                             patch_corner(&corners, places >> 8), size);
         candidates |= maskBits(counts) << (group * LANES);
     }
     return candidates;
 }
 
 /// The primitives of a leaf, or with coherent rays those that some ray may meet.
-FN uint leaf_candidates(global const BvhLeaf* leaf, const PacketBounds* b, int triangles) {
+FN uint leaf_candidates(global const BvhLeaf* leaf, const PacketBounds* b, float size,
+                        int triangles) {
     uint candidates = 0;
     for (int group = 0; group < LANE_GROUPS; group++) {
         Mask counts = LOAD_INT(leaf->primitive + group * LANES) >= 0;
         if (triangles && b->coherent)
             counts = counts & triangles_near(b, v3(LEAF_ROW(0), LEAF_ROW(1), LEAF_ROW(2)),
                                              v3(LEAF_ROW(3), LEAF_ROW(4), LEAF_ROW(5)),
-                                             v3(LEAF_ROW(6), LEAF_ROW(7), LEAF_ROW(8)));
+                                             v3(LEAF_ROW(6), LEAF_ROW(7), LEAF_ROW(8)), size);
         candidates |= maskBits(counts) << (group * LANES);
     }
     return candidates;
@@ -176,7 +185,8 @@ FN Mask packet_patch(global const BvhPatch* patch, PacketRay r, const PacketBoun
         ready[k] = packet_corner(patch->corner, k, r, bounds);
     int base = patch_base(patch);
     global const BvhLine* lines = (global const BvhLine*)patch;
-    uint candidates = patch_candidates(patch, bounds, coherent);
+    float size = leaf_size(patch->triangle);
+    uint candidates = patch_candidates(patch, bounds, size, coherent);
     LeafRays rays = {lanesOf(0), lanesOf(0)};
 #define READY_CORNER(place)                                                                        \
     (coherent ? packet_corner(patch->corner, place, r, bounds) : ready[place])
@@ -186,8 +196,9 @@ FN Mask packet_patch(global const BvhPatch* patch, PacketRay r, const PacketBoun
         s.a = READY_CORNER(places & 15);
         s.b = READY_CORNER((places >> 4) & 15);
         s.c = READY_CORNER((places >> 8) & 15);
-        TriangleHit h = triangle_hit(s, r.shear, hit->t, any_hit, coherent);
+        TriangleHit h = triangle_hit(s, r.shear, (Real)size, hit->rank, any_hit, coherent);
         if (coherent && !someLane(h.hit | h.doubtful)) continue;
+        if (!any_hit) h = ranked_backs(h, s, r.shear);
         rays = packet_take(rays, h, patch_number(patch, base, k), excluded, live, any_hit, hit);
     }
     return rays_settled(rays, lines, BVH_PATCH, candidates, r, excluded, any_hit, hit);
@@ -203,11 +214,12 @@ FN Mask packet_leaf(global const BvhLine* lines, int form, PacketRay r, const Pa
                                 : packet_patch((global const BvhPatch*)lines, r, bounds, 0,
                                                excluded, live, any_hit, hit);
     global const BvhLeaf* leaf = (global const BvhLeaf*)lines;
-    uint candidates = leaf_candidates(leaf, bounds, form == geometry_triangle);
+    float size = form == geometry_triangle ? leaf_size(leaf->primitive) : 0.f;
+    uint candidates = leaf_candidates(leaf, bounds, size, form == geometry_triangle);
     LeafRays rays = {lanesOf(0), lanesOf(0)};
     for (uint bits = candidates; bits; bits &= bits - 1) {
-        int k = lowest_bit(bits), number = leaf->primitive[k];
-        TriangleHit h = packet_primitive(leaf, form, k, r, bounds, hit->t, any_hit);
+        int k = lowest_bit(bits), number = BVH_LEAF_NUMBER(leaf->primitive[k]);
+        TriangleHit h = packet_primitive(leaf, form, k, r, bounds, size, hit->rank, any_hit);
         if (bounds->coherent && !someLane(h.hit | h.doubtful)) continue;
         rays = packet_take(rays, h, number, excluded, live, any_hit, hit);
     }

@@ -39,7 +39,7 @@ FN int stream_take(RayStream* s, int begin, RayWalk* w, WalkStack* stack) {
     int entry = s->next++, lane = (entry - begin) % LANES;
     if (lane == 0) s->lanes = packet_lanes(stream_packet(s, entry));
     walk_start(w, stack, single_ray(&s->lanes, lane), STREAM_FIELD(s, t)[entry],
-               ((global const int*)STREAM_FIELD(s, excluded))[entry]);
+               ((global const int*)STREAM_FIELD(s, excluded))[entry], s->any_hit);
     return entry;
 }
 

@@ -10,6 +10,8 @@
 #include "shared/film_sum.h"
 #include "shared/fresnel.h"
 #include "shared/intersect.h"
+#include "shared/intersect_edges.h"
+#include "shared/intersect_triangle.h"
 #include "shared/sampler.h"
 #include "shared/shading_frame.h"
 #include "shared/shading_normal.h"

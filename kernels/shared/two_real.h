@@ -58,6 +58,37 @@ FN TwoReal two_multiply(TwoReal a, TwoReal b) {
     return two_quick_sum(high, fmaR(a.high, b.high, -high) + (a.high * b.low + a.low * b.high));
 }
 
+/// a * b - c * d, its sign without error (but for what is below 2^-126): the sixteen parts of the
+/// products, added up in rounds of additions without error (Ogita, Rump and Oishi 2005, "Accurate
+/// sum and dot product"). A round makes what has not been added 2^-20 times as large or less.
+FN_APART Real exact_difference_of_products(TwoReal a, TwoReal b, TwoReal c, TwoReal d) {
+    Real part[16];
+    Real first[4], second[4];
+    first[0] = a.high, first[1] = a.low, first[2] = -c.high, first[3] = -c.low;
+    second[0] = b.high, second[1] = b.low, second[2] = d.high, second[3] = d.low;
+    for (int k = 0; k < 8; k++) {
+        Real x = first[k / 2], y = second[k / 4 * 2 + k % 2];
+        part[8 + k] = x * y;
+        part[k] = fmaR(x, y, -part[8 + k]);
+    }
+    for (int round = 0; round < 8; round++)
+        for (int k = 1; k < 16; k++) {
+            TwoReal sum = two_difference(part[k], -part[k - 1]);
+            part[k] = sum.high, part[k - 1] = sum.low;
+        }
+    return part[15];
+}
+
+/// a * b - c * d, its sign without error.
+FN Real signed_difference_of_products(TwoReal a, TwoReal b, TwoReal c, TwoReal d) {
+    Real value = two_difference_of_products(a, b, c, d).high;
+    Real doubt =
+        (absR(a.high * b.high) + absR(c.high * d.high)) * R(9.094947017729282e-13); // 2^-40
+    Mask open = !(absR(value) > doubt);
+    if (someLane(open)) value = sel(open, exact_difference_of_products(a, b, c, d), value);
+    return value;
+}
+
 /// x * over / under, off by a few 2^-47 of it.
 FN TwoReal two_scaled(Real x, Real over, Real under) {
     Real inverse = R(1.) / under, product = x * over;

@@ -107,6 +107,9 @@ LAYOUT(FilterBin, 8);
 #define BVH_WIDTH 16
 #define BVH_STACK 512 // children that may wait while a ray walks the tree; the builder keeps to it
 
+// Boxes are larger than what they hold by this much of the longest side of each primitive's own box: see intersect.h.
+#define BOX_MARGIN 1.9073486328125e-6f // 2^-19
+
 // Children's boxes as rows of 16: low x, high x, low y, high y, low z, high z. An absent child's box is empty
 // (low = +inf, high = -inf). child >= 0: a node; child < 0: ~((line << 2) | form), a leaf from that line of the leaves on, whose
 // form is BVH_PATCH or the geometry kind of a BvhLeaf.
@@ -123,16 +126,20 @@ typedef struct {
 LAYOUT(BvhLine, 64);
 
 // Up to 16 primitives of one kind, rows ax ay az bx by bz cx cy cz. Absent ones are all zero (nothing of no size is ever hit)
-// with primitive -1. A sphere has its radius in row bx.
+// with a negative primitive; of others that is their number but for one bit: of leaves of triangles, bit BVH_SIZE_BIT of word k
+// is bit k of the upper half of a float, the longest side of any of their boxes, rounded up; of spheres and disks it is
+// PRIMITIVE_FLIPPED. A sphere has its radius in row bx.
 typedef struct {
     float rows[9][BVH_WIDTH];
     int primitive[BVH_WIDTH];
 } BvhLeaf;
 LAYOUT(BvhLeaf, 640);
+#define BVH_SIZE_BIT 30
+#define BVH_LEAF_NUMBER(word) ((word) & ~(1 << BVH_SIZE_BIT))
 
 // Up to 16 triangles that have no more than 16 corners between them, as in nearly all leaves of a mesh: x, y, z of the corners,
-// and a word a triangle. Its bits 0 to 11 are its corners, 4 bits each (all 0: absent); bits 12 to 30 its number as
-// a primitive, less a base; bit 31 of word k is bit k of base >> BVH_PATCH_BASE.
+// and a word a triangle. Its bits 0 to 11 are its corners, 4 bits each (all 0: absent); bits 12 to 29 its number as
+// a primitive, less a base; bit 30 as in a BvhLeaf; bit 31 of word k is bit k of base >> BVH_PATCH_BASE.
 typedef struct {
     int triangle[BVH_WIDTH];
     float corner[3][BVH_WIDTH];
@@ -141,7 +148,7 @@ LAYOUT(BvhPatch, 256);
 
 #define BVH_PATCH 3 // beside the geometry kinds 0 to 2
 #define BVH_PATCH_CORNERS 12
-#define BVH_PATCH_NUMBERS 19
+#define BVH_PATCH_NUMBERS 18
 #define BVH_PATCH_BASE 13
 
 // --------------------------------------------------------------------------------------------------- camera

@@ -143,7 +143,8 @@ struct Count {
         near += is.inside || hit;
         wrong_hits += hit && is.side <= 0;
         f32::Corners seen = f32::seen_from(renamed(t, r), r.shear.origin);
-        bool inside = f32::triangle_edges(f32::sheared(seen, r.shear)).inside;
+        bool inside =
+            f32::settled_edges(renamed(t, r), f32::sheared(seen, r.shear), r.shear).inside;
         misses += !hit && is.side > 0 && inside && is.inside; // not: the neighbour's at an edge
     }
 };
@@ -212,7 +213,7 @@ TEST_CASE("From within ulps of a triangle's plane, its side is the exact one", "
         f32::vec3 o = vec_as<F32>(f64::add3(on, random.point<F64>(size * 1e-7 * (n % 4))));
         Ray r = make_ray(o, random.direction<F32>(), 4 * size);
         f32::Corners s = f32::sheared(f32::seen_from(renamed(t, r), r.shear.origin), r.shear);
-        f32::TriangleEdges e = f32::triangle_edges(s);
+        f32::TriangleEdges e = f32::settled_edges(renamed(t, r), s, r.shear);
         if (!e.inside) continue;
         near++;
         // The plane's side is exact; the ray's side of it is what the edges saw.
@@ -271,7 +272,8 @@ TEST_CASE("Nothing leaks out of a box for rays that start within ulps of its edg
                 // An origin within the rounding of an edge can be outside for all edge tests.
                 auto seen = [&](const Triangle& t) {
                     f32::Corners corners = f32::seen_from(renamed(t, r), r.shear.origin);
-                    return f32::triangle_edges(f32::sheared(corners, r.shear)).inside;
+                    f32::Corners s = f32::sheared(corners, r.shear);
+                    return f32::settled_edges(renamed(t, r), s, r.shear).inside;
                 };
                 if (std::none_of(box.begin(), box.end(), seen)) {
                     beside_all++;
