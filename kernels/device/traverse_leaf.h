@@ -25,7 +25,7 @@ FN float leaf_size(global const int* words) {
 /// Corners are sheared, `size` is leaf_size. For any hit only whether there is one. `rarely`: most
 /// often no lane is inside the triangle, so that a branch pays. What is doubtful the caller has
 /// settled (traverse_doubt.h).
-FN TriangleHit triangle_hit(Corners s, RayShear ray, Real size, Real t_max, int any_hit,
+FN TriangleHit triangle_hit(Corners s, RayShear ray, float size, Real t_max, int any_hit,
                             int rarely) {
     TriangleEdges e = triangle_edges(s, edge_margin_within(s.a.z, size));
     if (any_hit) return triangle_blocks(e, s, ray, t_max);
@@ -87,7 +87,7 @@ FN TriangleHit leaf_triangles(global const BvhLeaf* leaf, int group, const Trave
     s.a = LEAF_CORNER(0);
     s.b = LEAF_CORNER(3);
     s.c = LEAF_CORNER(6);
-    return present(triangle_hit(s, shear, (Real)size, (Real)t_max, any_hit, 0),
+    return present(triangle_hit(s, shear, size, (Real)t_max, any_hit, 0),
                    LOAD_INT(leaf->primitive + group * LANES) >= 0);
 }
 
@@ -116,7 +116,7 @@ FN TriangleHit patch_triangles(global const BvhPatch* patch, const PatchCorners*
     s.a = patch_corner(corners, places);
     s.b = patch_corner(corners, places >> 4);
     s.c = patch_corner(corners, places >> 8);
-    return present(triangle_hit(s, single_shear(ray), (Real)size, (Real)t_max, any_hit, 0),
+    return present(triangle_hit(s, single_shear(ray), size, (Real)t_max, any_hit, 0),
                    (places & ((1 << BVH_PATCH_CORNERS) - 1)) != 0);
 }
 

@@ -19,7 +19,7 @@ FN uint packet_cull(global const BvhNode* node, const PacketBounds* b, RealLanes
     for (int group = 0; group < LANE_GROUPS; group++) {
         BoxOverlap box =
             bounds_overlap(b, v3(NODE_PLANE(0, 0), NODE_PLANE(1, 0), NODE_PLANE(2, 0)),
-                           v3(NODE_PLANE(0, 1), NODE_PLANE(1, 1), NODE_PLANE(2, 1)), 0.f);
+                           v3(NODE_PLANE(0, 1), NODE_PLANE(1, 1), NODE_PLANE(2, 1)), b->slack);
         candidates |= maskBits(box.meets) << (group * LANES);
         entry[group].lanes = box.entry;
     }

@@ -49,13 +49,12 @@ FN PacketBounds packet_bounds(PacketRay r, Mask active) {
 
 /// Boxes, given by the planes that a coherent packet meets first and last, that some of its rays
 /// may meet, and where the first ray may enter them: no ray's way through a box begins before or
-/// ends after that of the bounds. The boxes are larger than given by `margin` on all sides.
-FN BoxOverlap bounds_overlap(const PacketBounds* b, vec3 near, vec3 far, float margin) {
+/// ends after that of the bounds. `slack`: of the distances, by axis.
+FN BoxOverlap bounds_overlap(const PacketBounds* b, vec3 near, vec3 far, const float* slack) {
 #define BOUNDS_DISTANCE(plane, side, a, margin)                                                    \
     fmaR(plane - (Real)b->side##_origin[a], (Real)b->side##_inverse[a], (Real)(margin))
-#define BOUNDS_SLACK(a) (b->slack[a] + margin * b->steepest[a])
-#define BOUNDS_NEAR(a, axis_) BOUNDS_DISTANCE(near.axis_, near, a, -BOUNDS_SLACK(a))
-#define BOUNDS_FAR(a, axis_) BOUNDS_DISTANCE(far.axis_, far, a, BOUNDS_SLACK(a))
+#define BOUNDS_NEAR(a, axis_) BOUNDS_DISTANCE(near.axis_, near, a, -slack[a])
+#define BOUNDS_FAR(a, axis_) BOUNDS_DISTANCE(far.axis_, far, a, slack[a])
     return box_overlap(BOUNDS_NEAR(0, x), BOUNDS_NEAR(1, y), BOUNDS_NEAR(2, z), BOUNDS_FAR(0, x),
                        BOUNDS_FAR(1, y), BOUNDS_FAR(2, z), (Real)INFINITY);
 }
@@ -91,7 +90,7 @@ FN TriangleHit packet_primitive(global const BvhLeaf* leaf, int kind, int k, Pac
     s.a = packet_corner(leaf->rows, k, r, bounds);
     s.b = packet_corner(leaf->rows + 3, k, r, bounds);
     s.c = packet_corner(leaf->rows + 6, k, r, bounds);
-    TriangleHit h = triangle_hit(s, r.shear, (Real)size, t, any_hit, bounds->coherent);
+    TriangleHit h = triangle_hit(s, r.shear, size, t, any_hit, bounds->coherent);
     return any_hit ? h : ranked_backs(h, s, r.shear);
 }
 
@@ -138,7 +137,11 @@ FN Mask triangles_near(const PacketBounds* b, vec3 p, vec3 q, vec3 r, float size
     TRIANGLE_BOUNDS(x, 0)
     TRIANGLE_BOUNDS(y, 1)
     TRIANGLE_BOUNDS(z, 2)
-    return bounds_overlap(b, near, far, size * BOX_MARGIN).meets;
+    float margin = size * BOX_MARGIN;
+    float slack[3];
+    for (int a = 0; a < 3; a++)
+        slack[a] = b->slack[a] + margin * b->steepest[a];
+    return bounds_overlap(b, near, far, slack).meets;
 }
 
 /// The triangles of a patch, or with coherent rays those that some ray may meet.
@@ -196,7 +199,7 @@ FN Mask packet_patch(global const BvhPatch* patch, PacketRay r, const PacketBoun
         s.a = READY_CORNER(places & 15);
         s.b = READY_CORNER((places >> 4) & 15);
         s.c = READY_CORNER((places >> 8) & 15);
-        TriangleHit h = triangle_hit(s, r.shear, (Real)size, hit->rank, any_hit, coherent);
+        TriangleHit h = triangle_hit(s, r.shear, size, hit->rank, any_hit, coherent);
         if (coherent && !someLane(h.hit | h.doubtful)) continue;
         if (!any_hit) h = ranked_backs(h, s, r.shear);
         rays = packet_take(rays, h, patch_number(patch, base, k), excluded, live, any_hit, hit);

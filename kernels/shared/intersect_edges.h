@@ -73,10 +73,11 @@ FN Real edge_margin(Corners s) {
 }
 
 /// The same for any triangle no side of which is longer than `size`, with a corner at z, that the
-/// ray may be inside of: 32 u D (|z| + 4 D), D = size + 4 u |z|.
-FN Real edge_margin_within(Real z, Real size) {
-    Real reach = absR(z), d = fmaR(reach, (Real)(4.f * HALF_ULP), size);
-    return fmaR(d * (Real)(32.f * HALF_ULP), fmaR(d, R(4.), reach), EDGE_UNDERFLOW);
+/// ray may be inside of: 32 u D (|z| + 4 D), D = size + 4 u |z|, multiplied out and rounded up.
+FN Real edge_margin_within(Real z, Scalar size) {
+    Real reach = absR(z);
+    Real slope = fmaR(reach, (Real)(132.f * HALF_ULP * HALF_ULP), (Real)(33.f * HALF_ULP * size));
+    return fmaR(reach, slope, (Real)(130.f * HALF_ULP * size * size + 1e-36f));
 }
 
 /// Of sheared corners. The edge functions are within 3 u of those of the rounded corners.
@@ -87,8 +88,9 @@ FN TriangleEdges triangle_edges(Corners s, Real margin) {
     e.w = difference_of_products(s.b.x, s.a.y, s.b.y, s.a.x);
     e.determinant = e.u + e.v + e.w;
     Real low = minR(e.u, minR(e.v, e.w)), high = maxR(e.u, maxR(e.v, e.w));
-    e.inside = (low > margin) | (high < -margin);
-    e.open = ((low >= -margin) | (high <= margin)) & !e.inside;
+    Real within = maxR(low, -high); // of edges all of one sign the least
+    e.inside = within > margin;
+    e.open = (within >= -margin) & !e.inside;
     return e;
 }
 
