@@ -1,10 +1,13 @@
 // The program: its subcommands, and errors turned into one line and an exit code.
+#include "host/cl/device.h"
+#include "host/cl/driver_watch.h"
 #include "host/commands/subcommands.h"
 #include "host/commands/version.h"
 #include "host/error.h"
 #include "host/streams.h"
 
 #include <exception>
+#include <new>
 #include <string>
 
 namespace {
@@ -21,8 +24,9 @@ CommandLine command_line() {
         .summary = "Parhelion: a physically based renderer for the command line, on OpenCL",
         .footer =
             "Exit codes: 0 done, 1 images differ (compare), a check does not hold (stress) or "
-            "a sample was not finite (render --strict), 2 unusable input, 3 device failure, "
-            "4 internal failure, 5 a result could not be written (disk full, standard output "
+            "a sample was not finite (render --strict), 2 unusable input, 3 device failure or "
+            "out of memory, 4 internal failure, 5 a result could not be written (disk full, "
+            "standard output "
             "closed, a file of its name made meanwhile).\n"
             "Each subcommand has its own --help with examples.",
         .example = "parhelion render scene.xml -o image.exr",
@@ -36,6 +40,7 @@ CommandLine command_line() {
 
 int main(int argc, char** argv) {
     const StandardStreams streams;
+    report_ends_by_driver();
     try {
         const int code = run_command_line(command_line(), {argv + 1, argv + argc});
         check_printed();
@@ -49,6 +54,11 @@ int main(int argc, char** argv) {
         return fail(ExitCode::bad_input, e.what());
     } catch (const DeviceError& e) {
         return fail(ExitCode::device_failure, e.what());
+    } catch (const cl::Error& e) {
+        return fail(ExitCode::device_failure,
+                    fmt::format("{} in {}", opencl_error_name(e.err()), e.what()).c_str());
+    } catch (const std::bad_alloc&) {
+        return fail(ExitCode::device_failure, ("out of memory" + memory_limit_text()).c_str());
     } catch (const std::exception& e) {
         return fail(ExitCode::internal_failure, e.what());
     }

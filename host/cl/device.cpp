@@ -1,12 +1,17 @@
 // Finding OpenCL devices and choosing one.
 #include "host/cl/device.h"
 
+#include "host/cl/driver_watch.h"
+#include "host/cl/no_device.h"
+#include "host/cl/program_cache.h"
+#include "host/cl/work_folder.h"
 #include "host/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 
 namespace parhelion {
 namespace {
@@ -42,10 +47,20 @@ Device describe(const cl::Device& handle, const std::string& platform, int index
     return d;
 }
 
+/// What may be the reason that PoCL has no device.
+std::string chosen_devices() {
+    const char* chosen = std::getenv("POCL_DEVICES");
+    return chosen ? fmt::format(" (POCL_DEVICES is '{}'; pthread and basic are the processor)",
+                                as_one_line(chosen))
+                  : "";
+}
+
 void add_platform(const cl::Platform& platform, DeviceList& list) {
     std::string name = platform.getInfo<CL_PLATFORM_NAME>();
     std::vector<cl::Device> handles;
     platform.getDevices(CL_DEVICE_TYPE_ALL, &handles);
+    if (handles.empty())
+        list.failures.push_back(fmt::format("platform {} has none{}", name, chosen_devices()));
     for (const cl::Device& handle : handles)
         list.devices.push_back(describe(handle, name, static_cast<int>(list.devices.size())));
 }
@@ -57,23 +72,16 @@ std::string device_names(const DeviceList& list) {
     return text;
 }
 
-} // namespace
-
-int Device::lanes() const {
-    if (!is_cpu) return 1;
-    return float_width >= 16 ? 16 : 8;
-}
-
-DeviceList list_devices() {
-    DeviceList list;
+void add_platforms(DeviceList& list) {
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);
     } catch (const cl::Error& e) {
         list.failures.push_back(
             fmt::format("no OpenCL platform: {} in {}", opencl_error_name(e.err()), e.what()));
-        return list;
+        return;
     }
+    list.platforms = platforms.size();
     for (std::size_t p = 0; p < platforms.size(); p++) {
         try {
             add_platform(platforms[p], list);
@@ -82,16 +90,25 @@ DeviceList list_devices() {
                                                 opencl_error_name(e.err()), e.what()));
         }
     }
+}
+
+} // namespace
+
+int Device::lanes() const {
+    if (!is_cpu) return 1;
+    return float_width >= 16 ? 16 : 8;
+}
+
+DeviceList list_devices() {
+    work_folder({ProgramCache::standard().folder()}); // before the driver asks for one
+    DeviceList list;
+    watch_driver("looking for devices", [&] { add_platforms(list); });
     return list;
 }
 
 Device choose_device(const std::string& selector) {
     DeviceList list = list_devices();
-    if (list.devices.empty()) {
-        std::string why =
-            list.failures.empty() ? "no platform has a device" : list.failures.front();
-        throw DeviceError("no OpenCL device: " + why + " (on a CPU, install pocl-opencl-icd)");
-    }
+    if (list.devices.empty()) throw DeviceError(why_no_device(list));
     if (selector.empty()) {
         auto usable = [](const Device& d) { return d.available; };
         auto gpu = [](const Device& d) { return d.available && !d.is_cpu; };

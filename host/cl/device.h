@@ -34,10 +34,12 @@ struct Device {
 
 struct DeviceList {
     std::vector<Device> devices;
-    std::vector<std::string> failures; ///< one line for each platform that could not be asked
+    std::size_t platforms = 0;
+    std::vector<std::string> failures; ///< one line for each platform that has no device to offer
 };
 
-/// Every device of every platform. A platform that fails is reported and hides no other.
+/// Every device of every platform. A platform that fails is reported and hides no other. Throws
+/// DeviceError where there is no folder to compile in (work_folder.h).
 DeviceList list_devices();
 
 /// The device of that index or with that text in its name (case does not matter); an empty selector

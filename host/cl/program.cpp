@@ -34,8 +34,9 @@ std::string first_errors(const std::string& log) {
 } // namespace
 
 std::string ProgramSource::key(const Device& device) const {
-    return fmt::format("{}\n{}\n{}\n{}\n{}\n", device.platform, device.name, device.driver_version,
-                       device.opencl_version, options) +
+    return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n", device.platform, device.name,
+                       device.driver_version, device.opencl_version, options, device.quick_options,
+                       use) +
            text;
 }
 
@@ -52,8 +53,23 @@ ProgramSource program_source(const std::string& name, const std::string& text,
 Program::Program(const cl::Context& context, const Device& device, const ProgramCache& cache,
                  const ProgramSource& source)
     : key_(source.key(device)) {
-    if (auto binary = cache.load(key_)) from_cache_ = build_from(context, device, *binary);
+    CachedProgram cached = cache.load(key_);
+    note_ = cached.note;
+    if (device.keeps_programs) {
+        build_kept(context, device, source, cached);
+        return;
+    }
+    if (cached.binary) from_cache_ = build_from(context, device, *cached.binary);
     if (!from_cache_) build_source(context, device, source);
+}
+
+/// The driver finds in its folder what the cache has, or compiles.
+void Program::build_kept(const cl::Context& context, const Device& device,
+                         const ProgramSource& source, const CachedProgram& cached) {
+    kept_.emplace(key_);
+    bool restored = cached.binary && kept_->restore(*cached.binary);
+    bool made = kept_->watch([&] { build_source(context, device, source); });
+    from_cache_ = restored && !made;
 }
 
 bool Program::build_from(const cl::Context& context, const Device& device,
@@ -98,10 +114,19 @@ cl::Kernel Program::kernel(const std::string& name) const {
     return cl::Kernel(program_, name.c_str());
 }
 
-void Program::store(const ProgramCache& cache) const {
-    if (from_cache_) return;
+std::vector<unsigned char> Program::binary() const {
     auto binaries = program_.getInfo<CL_PROGRAM_BINARIES>();
-    if (!binaries.empty() && !binaries.front().empty()) cache.store(key_, binaries.front());
+    return binaries.empty() ? std::vector<unsigned char>{} : binaries.front();
+}
+
+std::string Program::store(const ProgramCache& cache) const {
+    if (!kept_ && from_cache_) return {};
+    if (kept_ && kept_->is_stored()) return {};
+    std::vector<unsigned char> bytes = kept_ ? kept_->packed() : binary();
+    if (bytes.empty()) return {};
+    std::string reason = cache.store(key_, bytes);
+    if (kept_) kept_->set_stored();
+    return reason;
 }
 
 } // namespace parhelion

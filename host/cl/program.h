@@ -2,10 +2,13 @@
 #pragma once
 
 #include "host/cl/device.h"
+#include "host/cl/driver_programs.h"
 #include "host/cl/program_cache.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace parhelion {
 
@@ -22,6 +25,7 @@ struct ProgramSource {
     std::string name; ///< for messages
     std::string text;
     std::string options; ///< of the OpenCL compiler
+    std::string use{};   ///< what a driver compiles for that is not in the text or the options
 
     std::string key(const Device& device) const;
 };
@@ -40,9 +44,12 @@ public:
 
     cl::Kernel kernel(const std::string& name) const;
     bool from_cache() const { return from_cache_; }
-    /// Keeps the compiled program for the next run. Called after its kernels have run once: some
-    /// implementations finish compiling only then.
-    void store(const ProgramCache& cache) const;
+    /// Keeps the compiled program for the next run, where there is more to keep than was found.
+    /// Called after its kernels have run once: some implementations finish compiling only then.
+    /// Returns nothing, or one line that says why it is not kept.
+    std::string store(const ProgramCache& cache) const;
+    /// What the user may want to know of the cache, or nothing.
+    const std::string& note() const { return note_; }
 
 private:
     bool build_from(const cl::Context& context, const Device& device,
@@ -51,10 +58,14 @@ private:
                       const ProgramSource& source);
     bool build_quickly(const cl::Context& context, const Device& device,
                        const ProgramSource& source);
+    void build_kept(const cl::Context& context, const Device& device, const ProgramSource& source,
+                    const CachedProgram& cached);
+    std::vector<unsigned char> binary() const;
 
-    std::string key_;
+    std::string key_, note_;
     cl::Program program_;
     bool from_cache_ = false;
+    std::optional<DriverProgram> kept_; ///< where the driver keeps programs itself
 };
 
 } // namespace parhelion

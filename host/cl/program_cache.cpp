@@ -1,89 +1,142 @@
 // Compiled programs kept on disk between runs.
 #include "host/cl/program_cache.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
+#include "host/cl/folder_trial.h"
+#include "host/cl/program_file.h"
+#include "host/error.h"
 
-#include <cstdint>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
 #include <cstdlib>
-#include <fstream>
-#include <string_view>
+#include <cstring>
 
 namespace parhelion {
+namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view magic = "parhelion program 1\n";
+constexpr std::uint64_t megabyte = 1u << 20;
+constexpr const char* size_variable = "PARHELION_CACHE_SIZE";
+constexpr std::uint64_t most_megabytes = 1'000'000;
 
-/// FNV-1a, 64 bits: names a file and notices damage; equality of keys is checked on the keys
-/// themselves.
-std::uint64_t hash_bytes(const void* data, std::size_t size) {
-    std::uint64_t h = 0xcbf29ce484222325u;
-    for (std::size_t i = 0; i < size; i++)
-        h = (h ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
-    return h;
+fs::path standard_folder() {
+    if (const char* own = std::getenv("PARHELION_CACHE_DIR"); own && *own) return own;
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
+        return fs::path(cache) / "parhelion";
+    if (const char* home = std::getenv("HOME"); home && *home)
+        return fs::path(home) / ".cache" / "parhelion";
+    return {};
 }
 
-struct Header {
-    std::uint64_t key_size, binary_size, binary_hash;
+std::uint64_t standard_bytes() {
+    const char* given = std::getenv(size_variable);
+    if (!given || !*given) return ProgramCache::usual_bytes;
+    std::uint64_t megabytes = 0;
+    const char* end = given + std::strlen(given);
+    auto [read, error] = std::from_chars(given, end, megabytes);
+    if (error != std::errc() || read != end || megabytes > most_megabytes)
+        throw InputError(fmt::format("{} is '{}': accepted are whole megabytes from 0 to {}",
+                                     size_variable, given, most_megabytes));
+    return megabytes * megabyte;
+}
+
+struct File {
+    fs::file_time_type asked_for;
+    std::uint64_t bytes;
+    fs::path path;
 };
 
-std::optional<std::string> read_file(const std::filesystem::path& path) {
-    std::error_code error; // a folder of that name, say
-    std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error) return std::nullopt;
-    std::string text(size, '\0');
-    std::ifstream in(path, std::ios::binary);
-    if (!in.read(text.data(), static_cast<std::streamsize>(size))) return std::nullopt;
-    return text;
+/// Those of a cache, the one not asked for the longest first.
+std::vector<File> files_of(const fs::path& folder) {
+    std::vector<File> files;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        std::error_code gone; // another process may have removed it
+        if (!is_program_file(entry->path().filename()) || !entry->is_regular_file(gone)) continue;
+        File file{entry->last_write_time(gone), entry->file_size(gone), entry->path()};
+        if (!gone) files.push_back(std::move(file));
+    }
+    std::sort(files.begin(), files.end(),
+              [](const File& a, const File& b) { return a.asked_for < b.asked_for; });
+    return files;
+}
+
+/// All but `kept` go where there are more than `most_bytes`, the longest unused first.
+void keep_within(std::uint64_t most_bytes, const fs::path& folder, const fs::path& kept) {
+    std::vector<File> files = files_of(folder);
+    std::uint64_t bytes = 0;
+    for (const File& file : files)
+        bytes += file.bytes;
+    for (const File& file : files) {
+        if (bytes <= most_bytes) return;
+        if (file.path == kept) continue;
+        std::error_code ignored;
+        fs::remove(file.path, ignored);
+        bytes -= file.bytes;
+    }
 }
 
 } // namespace
 
-ProgramCache ProgramCache::standard() {
-    if (const char* own = std::getenv("PARHELION_CACHE_DIR")) return ProgramCache(own);
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
-        return ProgramCache(std::filesystem::path(cache) / "parhelion");
-    if (const char* home = std::getenv("HOME"); home && *home)
-        return ProgramCache(std::filesystem::path(home) / ".cache" / "parhelion");
-    return ProgramCache({});
+ProgramCache ProgramCache::standard() { return ProgramCache(standard_folder(), standard_bytes()); }
+
+ProgramCache ProgramCache::with_spare(fs::path spare) const {
+    ProgramCache cache = *this;
+    cache.spare_ = std::move(spare);
+    return cache;
 }
 
-std::filesystem::path ProgramCache::path(const std::string& key) const {
-    return folder_ / fmt::format("{:016x}.program", hash_bytes(key.data(), key.size()));
+fs::path ProgramCache::path(const std::string& key) const {
+    return folder_ / program_file_name(key);
 }
 
-std::optional<std::vector<unsigned char>> ProgramCache::load(const std::string& key) const {
-    if (folder_.empty()) return std::nullopt;
-    std::optional<std::string> text = read_file(path(key));
-    if (!text || text->size() < magic.size() + sizeof(Header) || !text->starts_with(magic))
-        return std::nullopt;
-    Header header;
-    text->copy(reinterpret_cast<char*>(&header), sizeof header, magic.size());
-    std::string_view rest = std::string_view(*text).substr(magic.size() + sizeof header);
-    if (header.key_size != key.size() || !rest.starts_with(key)) return std::nullopt;
-    rest.remove_prefix(key.size());
-    if (header.binary_size != rest.size() ||
-        header.binary_hash != hash_bytes(rest.data(), rest.size()))
-        return std::nullopt;
-    return std::vector<unsigned char>(rest.begin(), rest.end());
+CachedProgram ProgramCache::load(const std::string& key) const {
+    CachedProgram found;
+    if (!folder_.empty()) found = read_program_file(path(key), key);
+    if (!found.binary && !spare_.empty())
+        found.binary = read_program_file(spare_ / program_file_name(key), key).binary;
+    return found;
 }
 
-void ProgramCache::store(const std::string& key, const std::vector<unsigned char>& binary) const {
-    if (folder_.empty()) return;
+bool ProgramCache::contains(const std::string& key) const {
     std::error_code ignored;
-    std::filesystem::create_directories(folder_, ignored);
-    std::filesystem::path target = path(key);
-    std::filesystem::path temporary = target.string() + fmt::format(".{}.part", getpid());
-    Header header{key.size(), binary.size(), hash_bytes(binary.data(), binary.size())};
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(magic.data(), magic.size());
-    out.write(reinterpret_cast<const char*>(&header), sizeof header);
-    out.write(key.data(), static_cast<std::streamsize>(key.size()));
-    out.write(reinterpret_cast<const char*>(binary.data()),
-              static_cast<std::streamsize>(binary.size()));
-    out.close();
-    if (out) std::filesystem::rename(temporary, target, ignored);
-    if (!out || ignored) std::filesystem::remove(temporary, ignored);
+    return !folder_.empty() && fs::is_regular_file(path(key), ignored);
+}
+
+fs::path ProgramCache::open_folder() const {
+    constexpr std::uint64_t a_program = 4 * megabyte;
+    return !folder_.empty() && most_bytes_ > 0 && why_not_writable(folder_, a_program).empty()
+               ? folder_
+               : spare_;
+}
+
+std::string ProgramCache::store_below(const fs::path& folder, const std::string& key,
+                                      const std::vector<unsigned char>& binary) const {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) return error.message();
+    fs::path file = folder / program_file_name(key);
+    std::string reason = write_program_file(file, key, binary);
+    if (reason.empty() && folder == folder_) keep_within(most_bytes_, folder, file);
+    return reason;
+}
+
+std::string ProgramCache::store(const std::string& key,
+                                const std::vector<unsigned char>& binary) const {
+    std::string reason;
+    if (folder_.empty())
+        reason = "no cache folder: PARHELION_CACHE_DIR, XDG_CACHE_HOME and HOME are not set";
+    else if (binary.size() + key.size() > most_bytes_)
+        reason = fmt::format("{} allows {} MB", size_variable, most_bytes_ / megabyte);
+    else if (reason = store_below(folder_, key, binary); !reason.empty())
+        reason =
+            fmt::format("the cache folder {} cannot be written ({})", folder_.string(), reason);
+    if (reason.empty()) return {};
+    if (!spare_.empty()) store_below(spare_, key, binary);
+    return reason + ": kernels are compiled again next time";
 }
 
 } // namespace parhelion

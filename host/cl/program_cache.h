@@ -1,6 +1,7 @@
 // Compiled programs kept on disk between runs.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,23 +9,48 @@
 
 namespace parhelion {
 
-/// A folder of program binaries. A file holds its whole key beside the binary, so two keys with one
-/// hash are told apart; a file that is damaged or cannot be read counts as absent, and one that
-/// cannot be written is done without.
+/// What a cache has for a key, and one line for the user, or none, where that is worth knowing.
+struct CachedProgram {
+    std::optional<std::vector<unsigned char>> binary;
+    std::string note{};
+};
+
+/// A folder of program binaries, which any number of processes may use at once. A file holds its
+/// whole key beside the binary, so two keys with one hash are told apart, and a checksum. One that
+/// is damaged is set aside, counts as absent and is made again.
 class ProgramCache {
 public:
-    /// PARHELION_CACHE_DIR, else parhelion/ below XDG_CACHE_HOME, else ~/.cache/parhelion. No
-    /// folder, no cache.
-    static ProgramCache standard();
-    explicit ProgramCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    static constexpr std::uint64_t usual_bytes = std::uint64_t{512} << 20;
 
-    std::optional<std::vector<unsigned char>> load(const std::string& key) const;
-    void store(const std::string& key, const std::vector<unsigned char>& binary) const;
+    /// PARHELION_CACHE_DIR, else parhelion/ below XDG_CACHE_HOME, else ~/.cache/parhelion; no
+    /// folder, no cache. It keeps to PARHELION_CACHE_SIZE megabytes. Throws InputError where that
+    /// is no such number.
+    static ProgramCache standard();
+    /// `most_bytes`: of all files together; those that were not asked for the longest go first.
+    explicit ProgramCache(std::filesystem::path folder, std::uint64_t most_bytes = usual_bytes)
+        : folder_(std::move(folder)), most_bytes_(most_bytes) {}
+
+    /// The same, which keeps in `spare` what its own folder does not take.
+    ProgramCache with_spare(std::filesystem::path spare) const;
+
+    CachedProgram load(const std::string& key) const;
+    /// Whether there is something to load. It may turn out to be damaged.
+    bool contains(const std::string& key) const;
+    /// Nothing, or one line that says why the binary is not kept for the next run.
+    std::string store(const std::string& key, const std::vector<unsigned char>& binary) const;
+
     /// Where the program of this key is kept.
     std::filesystem::path path(const std::string& key) const;
+    const std::filesystem::path& folder() const { return folder_; }
+    /// The folder that a program would be stored in now: its own, or the spare one.
+    std::filesystem::path open_folder() const;
 
 private:
-    std::filesystem::path folder_;
+    std::string store_below(const std::filesystem::path& folder, const std::string& key,
+                            const std::vector<unsigned char>& binary) const;
+
+    std::filesystem::path folder_, spare_;
+    std::uint64_t most_bytes_;
 };
 
 } // namespace parhelion

@@ -1,6 +1,7 @@
 // `parhelion compile`: kernels compiled ahead of a render, or beside one.
 #include "host/commands/compile.h"
 
+#include "host/commands/cache_help.h"
 #include "host/commands/render.h"
 #include "host/error.h"
 #include "host/render/device_scene.h"
@@ -58,14 +59,19 @@ int run_compile(const CompileCommand& c) {
     options.lanes = c.image.options.lanes > 0 ? c.image.options.lanes : device.device.lanes();
     progress.start("compiling kernels");
     bool cached = true;
+    std::vector<std::string> notes;
     if (programs.size() == 1) {
-        cached = compile_program(device, programs.front(), options);
+        cached = compile_program(device, programs.front(), options, notes);
     } else {
         device.compile_beside = compile_in_own_process(device.device);
-        for (const StageReport& stage : compile_stages(device, options).reports)
+        StagePrograms compiled = compile_stages(device, options);
+        notes = compiled.notes;
+        for (const StageReport& stage : compiled.reports)
             cached = cached && stage.cached;
     }
     progress.finish(cached ? "cached" : "compiled");
+    for (const std::string& note : notes)
+        progress.note("note: " + note);
     return static_cast<int>(ExitCode::ok);
 }
 
@@ -97,8 +103,10 @@ std::vector<std::string> own_command(const Device& device, ProgramGroup group,
 CompileBeside compile_in_own_process(const Device& device) {
     using tbb::global_control;
     if (global_control::active_value(global_control::max_allowed_parallelism) < 2) return {};
-    return [device](ProgramGroup group, const StageOptions& options) {
-        return ChildProcess::start(own_command(device, group, options));
+    return [device](ProgramGroup group, const StageOptions& options,
+                    const std::filesystem::path& cache_folder) {
+        return ChildProcess::start(own_command(device, group, options),
+                                   {"PARHELION_CACHE_DIR=" + cache_folder.string()});
     };
 }
 
@@ -114,7 +122,8 @@ Subcommand compile_subcommand() {
             "  parhelion compile scene.xml --aov albedo --integrator direct   # as it will be "
             "rendered\n"
             "  parhelion compile --features \"$(parhelion info scene.xml --json | "
-            "jq -r '.kernel_features | join(\",\")')\"",
+            "jq -r '.kernel_features | join(\",\")')\"" +
+            std::string(cache_help),
         .options = {{"scene", &image.scene_file, "Scene file (Mitsuba 3 XML)"},
                     {"--features",
                      &c->features,

@@ -1,8 +1,10 @@
 // `parhelion devices`: what there is to render on, and whether it works.
 #include "host/commands/devices.h"
 
+#include "host/cl/no_device.h"
 #include "host/cl/self_test.h"
 #include "host/cl/work_groups.h"
+#include "host/commands/cache_help.h"
 #include "host/error.h"
 #include "host/json_text.h"
 #include "host/streams.h"
@@ -66,8 +68,7 @@ int run_devices(bool json) {
     if (json) print(json_text(nlohmann::json{{"devices", devices}, {"failures", list.failures}}));
     for (const std::string& failure : list.failures)
         say("parhelion: " + failure);
-    if (list.devices.empty())
-        say("parhelion: no OpenCL device (on a CPU, install pocl-opencl-icd)");
+    if (list.devices.empty()) say("parhelion: " + why_no_device(list));
     return static_cast<int>(one_works ? ExitCode::ok : ExitCode::device_failure);
 }
 
@@ -78,7 +79,8 @@ Subcommand devices_subcommand() {
     return {
         .name = "devices",
         .summary = "List OpenCL devices and test each",
-        .examples = "Example:\n  parhelion devices --json | jq '.devices[].name'",
+        .examples =
+            "Example:\n  parhelion devices --json | jq '.devices[].name'" + std::string(cache_help),
         .options = {{"--json", json.get(), "One JSON object"}},
         .run = [json] { return run_devices(*json); },
     };

@@ -3,6 +3,7 @@
 
 #include "host/clock.h"
 #include "host/commands/bad_sample_warning.h"
+#include "host/commands/cache_help.h"
 #include "host/commands/compile.h"
 #include "host/commands/misfit_warning.h"
 #include "host/error.h"
@@ -134,7 +135,8 @@ Subcommand render_subcommand() {
             "  parhelion render scene.xml -o layers.exr --aov albedo,normals,depth --stats "
             "stats.json\n"
             "  parhelion render scene.xml -o tile.exr --crop 0,0,64,64 -D light=bright --seed 7\n"
-            "  parhelion render scene.xml --pixel 12,34 --sample 5 --trace",
+            "  parhelion render scene.xml --pixel 12,34 --sample 5 --trace" +
+            std::string(cache_help),
         .options = render_options(*c),
         .run = [c] { return run_render(*c); },
     };

@@ -171,6 +171,8 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     result.report.stages = pipeline.stage_reports();
     result.report.compiler_peak_bytes = pipeline.compiler_peak_bytes();
     progress.finish(result.report.all_cached() ? "cached" : "compiled");
+    for (const std::string& note : pipeline.notes())
+        progress.note("note: " + note);
 
     start = Clock::now();
     RenderParams params = render_params(scene, flat, sizes, aovs);

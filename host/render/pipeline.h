@@ -27,6 +27,7 @@ public:
     std::vector<StageReport> stage_reports() const;
     /// Of the process that compiled beside this one, bytes; 0: there was none.
     std::uint64_t compiler_peak_bytes() const { return stages_.beside_peak_bytes; }
+    const std::vector<std::string>& notes() const { return stages_.notes; }
     std::size_t pool_bytes() const;
     std::size_t film_bytes() const;
 

@@ -3,8 +3,10 @@
 
 #include "host/child_process.h"
 #include "host/cl/program.h"
+#include "host/cl/work_folder.h"
 #include "host/render/stages.h"
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -12,9 +14,10 @@
 
 namespace parhelion {
 
-/// Starts a process that compiles one program for the same device, so that it is found compiled
-/// afterwards; nothing where that cannot be.
-using CompileBeside = std::function<std::optional<ChildProcess>(ProgramGroup, const StageOptions&)>;
+/// Starts a process that compiles one program for the same device and leaves it in that cache
+/// folder; nothing where that cannot be.
+using CompileBeside = std::function<std::optional<ChildProcess>(
+    ProgramGroup, const StageOptions&, const std::filesystem::path& cache_folder)>;
 
 /// Context, queue, and the programs compiled so far, which later renders take over. One render at a
 /// time.
@@ -22,13 +25,10 @@ struct RenderDevice {
     explicit RenderDevice(const Device& d)
         : device(d), context(d.handle), queue(context, d.handle, CL_QUEUE_PROFILING_ENABLE) {}
 
-    /// Where compiled programs are kept: nowhere, if the driver does.
-    ProgramCache program_cache() const { return device.keeps_programs ? ProgramCache({}) : cache; }
-
     Device device;
     cl::Context context;
     cl::CommandQueue queue;
-    ProgramCache cache = ProgramCache::standard();
+    ProgramCache cache = ProgramCache::standard().with_spare(spare_cache_folder(work_folder({})));
     std::map<std::string, Program> programs; ///< by key
     CompileBeside compile_beside;            ///< may be empty: all is compiled in this process
 };

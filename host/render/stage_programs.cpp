@@ -2,6 +2,7 @@
 #include "host/render/stage_programs.h"
 
 #include "host/cl/buffer.h"
+#include "host/cl/driver_watch.h"
 #include "host/cl/work_groups.h"
 #include "host/clock.h"
 #include "host/error.h"
@@ -11,9 +12,9 @@
 #include <sys/types.h> // ulong, as the kernels call it
 
 #include <algorithm>
+#include <chrono>
 #include <future>
 #include <optional>
-#include <utility>
 
 namespace parhelion {
 namespace {
@@ -30,26 +31,22 @@ ProgramSource group_source(ProgramGroup group, const StageOptions& options) {
     return program_source(files, program);
 }
 
-/// PoCL's compiled kernels are for one size of work-group.
-std::string program_key(const Device& device, const ProgramSource& source, int work_group_size) {
-    return fmt::format("work-groups of {}\n", work_group_size) + source.key(device);
-}
-
 /// A program to be had.
 struct Wanted {
     ProgramGroup group{};
     ProgramSource source;
     std::string key;
     bool opened = false; ///< among the device's programs
-    bool kept = false;   ///< a process before this one had it, and the driver keeps it
+    bool kept = false;   ///< in the cache, as it seems
 };
 
 Wanted wanted(const RenderDevice& d, ProgramGroup group, const StageOptions& options) {
     Wanted w{group, group_source(group, options), {}};
-    w.key = program_key(d.device, w.source, options.work_group_size);
+    // PoCL's compiled kernels are for one size of work-group.
+    w.source.use = fmt::format("work-groups of {}", options.work_group_size);
+    w.key = w.source.key(d.device);
     w.opened = d.programs.contains(w.key);
-    // An entry without a binary: the driver has the program.
-    w.kept = d.device.keeps_programs && d.cache.load(w.key).has_value();
+    w.kept = d.cache.contains(w.key);
     return w;
 }
 
@@ -57,7 +54,7 @@ struct Compiled {
     Program program;
     bool cached = false;
     double seconds = 0.0;
-    std::uint64_t beside_peak_bytes = 0;
+    std::vector<std::string> notes{}; ///< may be empty ones
 };
 
 void check_work_group(std::size_t most, int work_group_size, const std::string& taker) {
@@ -94,15 +91,35 @@ void launch_empty(const RenderDevice& d, const Wanted& w, const Program& program
     d.queue.finish();
 }
 
-/// After `beside`, which may be compiling the same, has ended.
-Compiled compile(const RenderDevice& d, const Wanted& w, const StageOptions& options,
-                 std::optional<ChildProcess> beside) {
+/// How long to wait for a program that is compiled beside: as long as this process took for its
+/// own, many times over, since both may find the machine busy.
+std::chrono::milliseconds patience(Clock::time_point start) {
+    return std::chrono::seconds(60) +
+           std::chrono::milliseconds(static_cast<std::int64_t>(1e4 * seconds_since(start)));
+}
+
+/// Waits for the process that compiles `w` beside this one. A program that it leaves is found in
+/// the cache; where it fails, this process compiles it, and says what became of the other.
+ChildProcess::End finished(ChildProcess& beside, const Wanted& w, Clock::time_point start,
+                           std::vector<std::string>& notes) {
+    ChildProcess::End end = beside.wait(patience(start));
+    if (!end.succeeded)
+        notes.push_back(fmt::format("a second process to compile {} {}; compiled in this one",
+                                    w.source.name, end.text()));
+    return end;
+}
+
+/// The kernels are ready to run; what is compiled is kept.
+Compiled compile(const RenderDevice& d, const Wanted& w, const StageOptions& options) {
     auto start = Clock::now();
     if (w.opened) return {d.programs.at(w.key), true};
-    std::uint64_t beside_bytes = beside ? beside->wait().peak_bytes : 0;
-    Program program(d.context, d.device, d.program_cache(), w.source);
-    launch_empty(d, w, program, options);
-    return {program, w.kept || program.from_cache(), seconds_since(start), beside_bytes};
+    std::optional<Program> program;
+    watch_driver("compiling kernels", [&] {
+        program.emplace(d.context, d.device, d.cache, w.source);
+        launch_empty(d, w, *program, options);
+    });
+    std::string note = program->store(d.cache);
+    return {*program, program->from_cache(), seconds_since(start), {program->note(), note}};
 }
 
 /// Compiles the last program in another process, where another is to be compiled here: PoCL
@@ -113,15 +130,21 @@ std::optional<ChildProcess> start_beside(const RenderDevice& d, const std::vecto
     if (!d.compile_beside || options.checked || !d.device.keeps_programs ||
         !unknown(programs.back()) || std::count_if(programs.begin(), programs.end(), unknown) < 2)
         return std::nullopt;
-    return d.compile_beside(programs.back().group, options);
+    return d.compile_beside(programs.back().group, options, d.cache.open_folder());
 }
 
-void keep(const RenderDevice& d, const Wanted& w, const Compiled& compiled) {
-    if (compiled.cached) return;
-    if (d.device.keeps_programs)
-        d.cache.store(w.key, {});
-    else
-        compiled.program.store(d.cache);
+/// Where the driver can do more than one thing at a time, all at once. PoCL cannot: it compiles one
+/// program at a time, and its device `basic` waits for ever when two threads launch kernels that
+/// are not yet compiled.
+std::launch policy(const Device& device) {
+    return device.one_thread || device.keeps_programs ? std::launch::deferred : std::launch::async;
+}
+
+/// Notes that are not there yet; an empty one is none.
+void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& more) {
+    for (const std::string& note : more)
+        if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end())
+            notes.push_back(note);
 }
 
 StageReport stage_report(std::size_t stage, const StageOptions& options, const Compiled& compiled) {
@@ -137,29 +160,29 @@ StageReport stage_report(std::size_t stage, const StageOptions& options, const C
 
 StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
     check_work_group(largest_work_group(d.device), options.work_group_size, d.device.name);
+    auto start = Clock::now();
     std::vector<Wanted> programs;
     programs.reserve(program_groups.size());
     for (ProgramGroup group : program_groups)
         programs.push_back(wanted(d, group, options));
     std::optional<ChildProcess> beside = start_beside(d, programs, options);
+    StagePrograms result;
+    result.checked = options.checked;
     std::vector<std::future<Compiled>> jobs;
     jobs.reserve(programs.size());
     for (const Wanted& w : programs)
-        jobs.push_back(
-            std::async(d.device.one_thread ? std::launch::deferred : std::launch::async, compile,
-                       std::cref(d), std::cref(w), std::cref(options),
-                       &w == &programs.back() ? std::exchange(beside, {}) : std::nullopt));
+        jobs.push_back(std::async(policy(d.device), [&] {
+            if (beside && &w == &programs.back())
+                result.beside_peak_bytes = finished(*beside, w, start, result.notes).peak_bytes;
+            return compile(d, w, options);
+        }));
     std::vector<Compiled> compiled;
     compiled.reserve(jobs.size());
     for (auto& job : jobs)
         compiled.push_back(job.get());
-    StagePrograms result;
-    result.checked = options.checked;
     for (std::size_t g = 0; g < compiled.size(); g++) {
-        keep(d, programs[g], compiled[g]);
         d.programs.emplace(programs[g].key, compiled[g].program);
-        result.beside_peak_bytes =
-            std::max(result.beside_peak_bytes, compiled[g].beside_peak_bytes);
+        add_notes(result.notes, compiled[g].notes);
     }
     for (std::size_t i = 0; i < stage_count; i++) {
         const Compiled& c = compiled[static_cast<std::size_t>(stage_groups[i])];
@@ -169,12 +192,13 @@ StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
     return result;
 }
 
-bool compile_program(RenderDevice& d, ProgramGroup group, const StageOptions& options) {
+bool compile_program(RenderDevice& d, ProgramGroup group, const StageOptions& options,
+                     std::vector<std::string>& notes) {
     check_work_group(largest_work_group(d.device), options.work_group_size, d.device.name);
     Wanted w = wanted(d, group, options);
-    Compiled compiled = compile(d, w, options, std::nullopt);
-    keep(d, w, compiled);
+    Compiled compiled = compile(d, w, options);
     d.programs.emplace(w.key, compiled.program);
+    add_notes(notes, compiled.notes);
     return compiled.cached;
 }
 

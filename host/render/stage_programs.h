@@ -5,6 +5,7 @@
 #include "host/render/report.h"
 #include "host/render/stages.h"
 
+#include <string>
 #include <vector>
 
 namespace parhelion {
@@ -14,6 +15,7 @@ struct StagePrograms {
     std::vector<StageReport> reports; ///< likewise
     bool checked = false;
     std::uint64_t beside_peak_bytes = 0; ///< of the process that compiled one of them; 0: none did
+    std::vector<std::string> notes{};    ///< for the user: what the cache could not do
 };
 
 /// Compiles to the end: no launch compiles anything afterwards. Where two programs are unknown, the
@@ -21,7 +23,8 @@ struct StagePrograms {
 StagePrograms compile_stages(RenderDevice& device, const StageOptions& options);
 
 /// Compiles one program to the end and keeps it for the next run; whether it was there already.
-/// Throws DeviceError.
-bool compile_program(RenderDevice& device, ProgramGroup group, const StageOptions& options);
+/// Adds to `notes` what the cache could not do. Throws DeviceError.
+bool compile_program(RenderDevice& device, ProgramGroup group, const StageOptions& options,
+                     std::vector<std::string>& notes);
 
 } // namespace parhelion

@@ -53,7 +53,7 @@ WordArrays run_on_host(const Probe& probe, const WordArrays& in, int count) {
 
 Program stress_program(const RenderDevice& device, const std::string& file, int lanes,
                        bool portable) {
-    return {device.context, device.device, device.program_cache(),
+    return {device.context, device.device, device.cache,
             program_source({"stress/" + file + ".cl"}, {.lanes = lanes, .portable = portable})};
 }
 

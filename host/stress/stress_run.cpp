@@ -9,6 +9,11 @@ std::uint64_t StressRun::count(std::uint64_t test, std::uint64_t quick, std::uin
     return effort == Effort::test ? test : effort == Effort::quick ? quick : full;
 }
 
+StressRun::~StressRun() {
+    for (const auto& [file, program] : programs_)
+        program.store(device.cache);
+}
+
 void StressRun::done(double fraction) {
     std::lock_guard lock(talking_);
     progress_.update(fraction, "");

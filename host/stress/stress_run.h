@@ -22,6 +22,9 @@ class StressRun {
 public:
     StressRun(RenderDevice& d, Effort e, std::uint64_t s, Progress& progress)
         : device(d), effort(e), seed(s), progress_(progress) {}
+    /// Keeps its programs for the next run.
+    ~StressRun();
+    StressRun(const StressRun&) = delete;
 
     /// A count by effort.
     std::uint64_t count(std::uint64_t test, std::uint64_t quick, std::uint64_t full) const;

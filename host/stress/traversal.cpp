@@ -30,7 +30,7 @@ std::vector<T> host_copy(const RenderDevice& d, const Buffer<T>& buffer) {
 }
 
 Program compile(const RenderDevice& d, const ProgramOptions& options) {
-    return {d.context, d.device, d.program_cache(),
+    return {d.context, d.device, d.cache,
             program_source({"intersect.cl", "shadow.cl"}, options)};
 }
 
@@ -238,6 +238,7 @@ void Traversal::run_on_device(const Program& program, const char* name, const Si
     d_.queue.finish();
     work.state = host_copy(d_, path_state);
     work.results = host_copy(d_, results);
+    program.store(d_.cache);
 }
 
 } // namespace parhelion::stress

@@ -48,6 +48,7 @@ TEST_CASE("Sizes and offsets of all structs that cross the bus are the same on t
         kernel.setArg(2, numbered<WaveParams>(2000));
         d.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(1), cl::NDRange(1));
         std::vector<int> found = host_copy(d, out);
+        program.store(d.cache);
         for (std::size_t i = 0; i < std::size(places); i++) {
             CAPTURE(places[i].name);
             CHECK(found[i] == places[i].bytes);

@@ -180,7 +180,7 @@ TEST_CASE("A render is the same whatever becomes of the process that compiles be
         CAPTURE(command ? command->front() : "none");
         CacheFolder cache;
         int asked = 0;
-        CompileBeside beside = [&](ProgramGroup, const StageOptions&) {
+        CompileBeside beside = [&](ProgramGroup, const StageOptions&, const fs::path&) {
             asked++;
             return command ? ChildProcess::start(*command) : std::nullopt;
         };

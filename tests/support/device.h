@@ -48,7 +48,7 @@ inline Program test_program(const TestDevice& d, const std::vector<std::string>&
     std::string text;
     for (const std::string& file : files)
         text += fmt::format("#line 1 \"{}\"\n", file) + test_kernel_text(file);
-    return Program(d.context, d.device, ProgramCache({}),
+    return Program(d.context, d.device, d.cache,
                    program_source(files.back(), kernel_source(files.back(), text),
                                   {variant.lanes, features, variant.portable}));
 }

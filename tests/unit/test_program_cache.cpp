@@ -18,7 +18,7 @@ TEST_CASE("Program cache: threads that store, load and miss beside each other") 
     parallel_for(count, [&](std::size_t i) { cache.store(key(i), binary(i)); });
     std::vector<int> found(count + 1);
     parallel_for(found.size(), [&](std::size_t i) {
-        auto loaded = cache.load(key(i));
+        auto loaded = cache.load(key(i)).binary;
         found[i] = loaded && *loaded == binary(i);
     });
     std::vector<int> stored(count, 1);

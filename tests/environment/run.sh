@@ -1,0 +1,263 @@
+#!/bin/bash
+# What surrounds the program is broken, and it neither aborts nor changes a bit of the image nor names the wrong cause.
+# Usage: run.sh PARHELION GROUP; a group that this machine does not allow ends with 77, which ctest takes for skipped.
+#
+# caches   the folder of compiled programs: cold, warm, damaged in every way, not to be made, unset, bounded, shared
+# disks    full, read-only and noexec file systems (needs to mount some)
+# drivers  no driver, one that cannot be loaded, devices that PoCL is told to offer
+# memory   `ulimit -v` from nothing to enough
+# children processes that compile beside end with the one that started them
+# shellcheck disable=SC2317 # functions that are called by the name they are given
+set -uo pipefail
+parhelion=$(readlink -f -- "$1")
+group=$2
+work=$(mktemp -d)
+mounted=()
+finish() {
+    for folder in "${mounted[@]}"; do umount "$folder"; done
+    rm -rf -- "$work"
+}
+trap finish EXIT
+cd -- "$work" || exit 1
+failed=0
+unset POCL_DEVICES POCL_CACHE_DIR PARHELION_CACHE_SIZE XDG_CACHE_HOME
+export PARHELION_CACHE_DIR=$work/cache TMPDIR=$work/tmp HOME=$work/home POCL_MAX_PTHREAD_COUNT=2
+mkdir -p "$TMPDIR" "$HOME"
+
+cat >scene.xml <<'SCENE'
+<scene version="3.0.0">
+    <integrator type="depth"/>
+    <sensor type="perspective">
+        <transform name="to_world"><lookat origin="0,0,3" target="0,0,0" up="0,1,0"/></transform>
+        <film type="hdrfilm">
+            <integer name="width" value="8"/><integer name="height" value="8"/><rfilter type="box"/>
+        </film>
+        <sampler type="independent"><integer name="sample_count" value="2"/></sampler>
+    </sensor>
+    <emitter type="constant"/>
+    <shape type="rectangle"/>
+</scene>
+SCENE
+
+fail() {
+    printf '%s: FAILED: %s\n' "$1" "$2"
+    [[ -z ${3:-} ]] || sed 's/^/    /' "$3"
+    failed=1
+}
+
+# renders NAME CODE TEXT COMMAND...: runs `COMMAND render ...` with its time limited; the exit code is CODE, its messages match
+# TEXT (an extended regular expression; "-": there is no note), and where it is 0 the image has the bits of the first one.
+renders() {
+    local name=$1 code=$2 text=$3 status
+    shift 3
+    rm -f image.exr
+    timeout -k 5 120 "$@" "$parhelion" render scene.xml -o image.exr >messages 2>&1 </dev/null
+    status=$?
+    [[ $status == "$code" ]] || { fail "$name" "exit code $status, not $code" messages; return; }
+    if [[ $text == - ]]; then
+        ! grep -q 'note:' messages || { fail "$name" "a note" messages; return; }
+    else
+        grep -Eq -- "$text" messages || { fail "$name" "nothing like '$text' is said" messages; return; }
+    fi
+    if [[ $code == 0 ]]; then
+        [[ -f first.exr ]] || cp image.exr first.exr
+        "$parhelion" compare image.exr first.exr --max 0 >difference 2>&1 ||
+            { fail "$name" "another image" difference; return; }
+    fi
+    [[ -z $(ls -A "$TMPDIR") ]] || { fail "$name" "left $(ls "$TMPDIR")"; rm -rf "${TMPDIR:?}"/*; return; }
+    printf '%s: passed\n' "$name"
+}
+
+rounds=0
+
+# damaged NAME COMMAND: COMMAND is run for one file of a warm cache, each time for another; it is set aside and made again.
+damaged() {
+    local name=$1 files
+    mapfile -t files < <(find "$work/cache" -maxdepth 1 -name '*.program' | sort)
+    "$2" "${files[rounds++ % ${#files[@]}]}"
+    renders "cache damaged: $name" 0 'is damaged .* and set aside; its kernels are compiled again' env
+    renders "cache damaged: $name, run again" 0 'kernels: .*, cached' env
+    rm -rf "$work"/cache/*.damaged
+}
+
+cut_short() { truncate -s "$(($(stat -c %s "$1") / 2))" "$1"; }
+one_short() { truncate -s -1 "$1"; }
+empty() { : >"$1"; }
+sparse() { truncate -s 1T "$1"; }
+garbled() {
+    local size
+    size=$(stat -c %s "$1")
+    head -c "$size" /dev/urandom >"$1"
+}
+garbled_inside() { printf 'garbage' | dd of="$1" bs=1 seek="$(($(stat -c %s "$1") - 30000))" conv=notrunc status=none; }
+folder_instead() { rm "$1" && mkdir -p "$1/in the way"; }
+pipe_instead() { rm "$1" && mkfifo "$1"; }
+
+caches() {
+    renders "cold cache" 0 'kernels: .*, compiled' env
+    renders "warm cache" 0 'kernels: .*, cached' env
+    damaged "cut short" cut_short
+    damaged "a byte short" one_short
+    damaged "empty" empty
+    damaged "sparse, 1 TB" sparse
+    damaged "garbage" garbled
+    damaged "garbage inside" garbled_inside
+    damaged "folders" folder_instead
+    damaged "pipes" pipe_instead
+    # The driver's own folder is not used, whatever is in it.
+    mkdir -p pocl/HJ && echo garbage >pocl/HJ/program.bc
+    renders "the driver's cache damaged" 0 - env POCL_CACHE_DIR="$work/pocl"
+    : >file
+    renders "cache folder below a file" 0 'note: the cache folder .*/file/below cannot be written \(Not a directory\)' \
+        env PARHELION_CACHE_DIR="$work/file/below"
+    renders "no cache folder" 0 'note: no cache folder: PARHELION_CACHE_DIR, XDG_CACHE_HOME and HOME are not set' \
+        env -u PARHELION_CACHE_DIR -u HOME
+    renders "HOME" 0 - env -u PARHELION_CACHE_DIR
+    [[ $(find home/.cache/parhelion -name '*.program' | wc -l) == 2 ]] || fail "HOME" "no programs in ~/.cache/parhelion"
+    renders "a bound of nothing" 0 'note: PARHELION_CACHE_SIZE allows 0 MB' env PARHELION_CACHE_DIR="$work/none" PARHELION_CACHE_SIZE=0
+    renders "a bound that is no number" 2 "PARHELION_CACHE_SIZE is '1 GB': accepted are whole megabytes" env PARHELION_CACHE_SIZE="1 GB"
+    renders "no such temporary folder" 0 - env TMPDIR=/no/such/folder
+    bounded
+    shared
+}
+
+# Files that were not asked for the longest make room.
+bounded() {
+    local file
+    rm -rf bound && mkdir bound
+    for file in 0123456789abcde{0,1,2,3}.program; do
+        head -c 400000 /dev/urandom >"bound/$file"
+        touch -d "2020-01-01 +${#file} days" "bound/$file"
+    done
+    touch -d 2019-01-01 bound/0123456789abcde3.program
+    renders "a bound of 1 MB" 0 - env PARHELION_CACHE_DIR="$work/bound" PARHELION_CACHE_SIZE=1
+    (($(du -sb --apparent-size bound | cut -f1) < 1100000)) || fail "a bound of 1 MB" "$(du -sb bound)"
+    [[ ! -e bound/0123456789abcde3.program ]] || fail "a bound of 1 MB" "the oldest file is still there"
+    renders "a bound of 1 MB, run again" 0 'kernels: .*, cached' env PARHELION_CACHE_DIR="$work/bound" PARHELION_CACHE_SIZE=1
+}
+
+# Several processes on one cold cache, and a run that was killed and left its temporary folder.
+shared() {
+    local i killed ids=()
+    rm -rf "$work/cache"
+    for i in 1 2 3; do
+        "$parhelion" render scene.xml -o "shared$i.exr" --quiet >"shared$i" 2>&1 &
+        ids+=($!)
+    done
+    for i in 1 2 3; do
+        wait "${ids[i - 1]}" || fail "three processes" "exit code $?" "shared$i"
+        "$parhelion" compare "shared$i.exr" first.exr --max 0 >difference 2>&1 || fail "three processes" "another image" difference
+    done
+    rm -rf "$work/cache"
+    "$parhelion" render scene.xml -o killed.exr --quiet >/dev/null 2>&1 &
+    killed=$!
+    for i in {1..200}; do [[ -z $(ls -A "$TMPDIR") ]] || break; sleep 0.02; done
+    kill -KILL "$killed"
+    wait "$killed" 2>/dev/null
+    renders "after one that was killed" 0 - env
+}
+
+# mount_here NAME OPTIONS: a file system of its own, or the group is skipped.
+mount_here() {
+    mkdir -p "$1"
+    mount -t tmpfs -o "$2" none "$work/$1" 2>/dev/null || { echo "skipped: no file system can be mounted here"; exit 77; }
+    mounted+=("$work/$1")
+}
+
+disks() {
+    mount_here small size=256k
+    renders "cache on a full disk" 0 'note: the cache folder .* cannot be written \(No space left on device\)' \
+        env PARHELION_CACHE_DIR="$work/small/cache"
+    renders "cold cache" 0 - env
+    mount_here read size=16m
+    cp -r cache read/cache
+    mount -o remount,ro "$work/read"
+    renders "warm cache, read-only" 0 'kernels: .*, cached' env PARHELION_CACHE_DIR="$work/read/cache"
+    renders "cold cache, read-only" 0 'note: the cache folder .* cannot be written \(Read-only file system\)' \
+        env PARHELION_CACHE_DIR="$work/read/other"
+    mount_here full size=8m
+    cp -r cache full/cache
+    head -c 9M /dev/zero 2>/dev/null >full/rest
+    renders "warm cache, full disk" 0 'kernels: .*, cached' env PARHELION_CACHE_DIR="$work/full/cache"
+    renders "temporary folder full" 0 - env TMPDIR="$work/small"
+    mount_here plain size=64m,noexec
+    renders "temporary folder without programs" 0 - env TMPDIR="$work/plain"
+    nobody
+}
+
+# A user without a home and without rights.
+nobody() {
+    local command=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+    chmod 755 "$work" && chmod 1777 "$TMPDIR"
+    cp "$parhelion" program && chmod 755 program scene.xml
+    mkdir -p out && chmod 777 out
+    if ! "${command[@]}" ./program --version >/dev/null 2>&1; then
+        echo "skipped: no other user can be had here"
+        return
+    fi
+    env -u PARHELION_CACHE_DIR HOME=/nonexistent "${command[@]}" ./program render scene.xml -o out/nobody.exr >messages 2>&1 ||
+        fail "a user without a home" "exit code $?" messages
+    grep -q 'note: the cache folder /nonexistent/.cache/parhelion cannot be written (Permission denied)' messages ||
+        fail "a user without a home" "no note" messages
+    "$parhelion" compare out/nobody.exr first.exr --max 0 >difference 2>&1 || fail "a user without a home" "another image" difference
+}
+
+drivers() {
+    local offered
+    renders "cold cache" 0 - env
+    mkdir vendors
+    renders "no driver" 3 'no driver is registered in .*vendors .*install pocl-opencl-icd' env OCL_ICD_VENDORS="$work/vendors"
+    echo /no/such/libpocl.so >vendors/pocl.icd
+    renders "a driver that is gone" 3 '/no/such/libpocl.so of .*/pocl.icd cannot be loaded' env OCL_ICD_VENDORS="$work/vendors"
+    echo garbage >vendors/garbage.so
+    echo "$work/vendors/garbage.so" >vendors/pocl.icd
+    renders "a driver that is none" 3 'cannot be loaded: .*(invalid ELF|too short)' env OCL_ICD_VENDORS="$work/vendors"
+    renders "a device that is none" 3 "none \(POCL_DEVICES is 'foo'" env POCL_DEVICES=foo
+    for offered in basic pthread "basic basic" "pthread basic" "pthread foo"; do
+        # Cold each time: two programs compiled in threads beside each other waited for ever.
+        rm -rf cache
+        renders "devices $offered" 0 - env POCL_DEVICES="$offered"
+    done
+    renders "one thread" 0 - env POCL_MAX_PTHREAD_COUNT=1
+}
+
+# With any amount of memory it ends by itself: with the image, or with one line that says memory.
+memory() {
+    local limit status
+    renders "cold cache" 0 - env
+    for limit in 60 150 250 280 300 320 340 360 380 400 430 460 500 600 800; do
+        rm -rf cache
+        (ulimit -v "$((limit * 1000))" && timeout -k 5 200 "$parhelion" render scene.xml -o image.exr --quiet --force) >messages 2>&1 </dev/null
+        status=$?
+        if [[ $status == 0 ]]; then
+            "$parhelion" compare image.exr first.exr --max 0 >difference 2>&1 || fail "$limit MB" "another image" difference
+        elif [[ $status == 3 ]]; then
+            grep -Eqi 'memory' messages || fail "$limit MB" "does not say memory" messages
+        else
+            ((limit < 100)) || fail "$limit MB" "exit code $status" messages # below, not even libraries are loaded
+        fi
+    done
+}
+
+children() {
+    local id i
+    "$parhelion" render scene.xml -o image.exr --quiet >messages 2>&1 &
+    id=$!
+    for i in {1..500}; do [[ -z $(pgrep -P "$id" || true) ]] || break; sleep 0.01; done
+    local child
+    child=$(pgrep -P "$id") || { echo "skipped: nothing is compiled beside (one processor)"; kill -KILL "$id"; exit 77; }
+    kill -KILL "$id"
+    wait "$id" 2>/dev/null
+    for i in {1..100}; do kill -0 "$child" 2>/dev/null || return 0; sleep 0.02; done
+    fail "a killed render" "the process that compiles beside it lives on"
+}
+
+case $group in
+    caches) caches ;;
+    disks) disks ;;
+    drivers) drivers ;;
+    memory) memory ;;
+    children) children ;;
+    *) echo "no such group: $group" && exit 2 ;;
+esac
+exit "$failed"
