@@ -38,6 +38,9 @@ CommandLine command_line() {
 
 } // namespace
 
+// Also what libraries call.
+extern "C" [[noreturn]] void abort() noexcept { parhelion::end_by_abort(); }
+
 int main(int argc, char** argv) {
     const StandardStreams streams;
     report_ends_by_driver();

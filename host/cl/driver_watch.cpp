@@ -6,7 +6,6 @@
 #include "host/cl/device.h"
 #include "host/cl/open_file.h"
 #include "host/cl/opencl.h"
-#include "host/cl/work_folder.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -32,7 +31,7 @@ namespace parhelion {
 namespace {
 
 constexpr std::array crash_signals = {SIGABRT, SIGSEGV, SIGBUS, SIGILL, SIGFPE};
-constexpr int patience_seconds = 60;
+constexpr int patience_seconds = 30;
 
 /// A call of the driver that is going on. While it does, standard error is a file in memory.
 struct Call {
@@ -101,13 +100,19 @@ void on_exit() {
     if (const Call* call = current.exchange(nullptr)) end_process(*call, "it gave up");
 }
 
+/// Before an exception leaves the driver in the middle, whose locks then stay closed.
+void on_no_memory() {
+    if (const Call* call = current.exchange(nullptr)) end_process(*call, "out of memory");
+    throw std::bad_alloc();
+}
+
 double processor_seconds() {
     timespec time{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Ends the process when it has used no processor for a minute: two locks wait for each other.
+/// Ends the process when it has used no processor for half a minute: two locks wait for each other.
 /// Where no thread can be had, nobody looks.
 class Watchman {
 public:
@@ -137,9 +142,7 @@ private:
             idle = now - used < 0.002 ? idle + 1 : 0;
             used = now;
         }
-        if (!current.exchange(nullptr)) return;
-        remove_work_folder();
-        end_process(call, "it does nothing any more");
+        if (current.exchange(nullptr)) end_process(call, "it does nothing any more");
     }
 
     std::mutex mutex_;
@@ -183,18 +186,12 @@ public:
 
 void call_and_report(const std::string& doing, const std::function<void()>& call) {
     HeldOutput held;
-    const std::string memory = "out of memory" + memory_limit_text();
-    const Call now{fmt::format("parhelion: the OpenCL driver failed while {}: ", doing),
-                   held.before(), held.file()};
+    const Call now{
+        fmt::format("parhelion: the OpenCL driver failed while {}{}: ", doing, memory_limit_text()),
+        held.before(), held.file()};
     Watchman watchman(now);
     Going going(now);
-    try {
-        call();
-    } catch (const std::bad_alloc&) {
-        current = nullptr;
-        remove_work_folder();
-        end_process(now, memory.c_str()); // its locks are held: it must not be called again
-    }
+    call();
 }
 
 } // namespace
@@ -203,7 +200,15 @@ void report_ends_by_driver() {
     for (int number : crash_signals)
         std::signal(number, on_crash);
     std::atexit(on_exit);
+    std::set_new_handler(on_no_memory);
     reporting = true;
+}
+
+void end_by_abort() {
+    if (const Call* call = current.exchange(nullptr)) end_process(*call, signal_text(SIGABRT));
+    std::signal(SIGABRT, SIG_DFL);
+    raise(SIGABRT);
+    _exit(128 + SIGABRT);
 }
 
 void watch_driver(const std::string& doing, const std::function<void()>& call) {

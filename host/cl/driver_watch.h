@@ -10,10 +10,14 @@ namespace parhelion {
 
 /// For the program itself, at its start. From then on, what ends the process during watch_driver
 /// (the driver's compiler calls exit or abort, or crashes where memory or disk space run out), and
-/// a call that does nothing for a minute, are told as failures of the device: one line on standard
+/// a call that does nothing for half a minute, are told as failures of the device: one line on standard
 /// error, with the last line that the driver printed, and exit code 3. Without it, as in tests, all
 /// of these happen as ever.
 void report_ends_by_driver();
+
+/// What the program's own abort() does: where the driver calls it, tells so. (LLVM puts its own
+/// handler of SIGABRT in the place of every other, and it does not go on to the one before.)
+[[noreturn]] void end_by_abort();
 
 /// Calls the driver: `doing` names it for messages, e.g. "compiling kernels". Memory that runs out
 /// is a DeviceError, or ends the process: a driver that was left in the middle holds its locks.

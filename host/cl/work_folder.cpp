@@ -40,6 +40,11 @@ std::optional<fs::path> told_folder() {
     return folder;
 }
 
+void remove_told_folder() {
+    std::error_code ignored;
+    if (auto folder = told_folder()) fs::remove_all(*folder, ignored);
+}
+
 /// Its lock says that the process which made a folder still lives.
 OpenFile locked(const fs::path& folder, int how) {
     OpenFile file(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW));
@@ -124,13 +129,8 @@ fs::path work_folder(const std::vector<fs::path>& others) {
     }
     fs::path folder = make_work_folder(places);
     setenv(driver_variable, driver_folder(folder).c_str(), 1);
-    std::atexit(remove_work_folder);
+    std::atexit(remove_told_folder);
     return folder;
-}
-
-void remove_work_folder() {
-    std::error_code ignored;
-    if (auto folder = told_folder()) fs::remove_all(*folder, ignored);
 }
 
 fs::path driver_folder(const fs::path& work_folder) { return work_folder / "driver"; }

@@ -16,9 +16,6 @@ namespace parhelion {
 /// killed have left there is removed. Throws DeviceError that names what was tried.
 std::filesystem::path work_folder(const std::vector<std::filesystem::path>& others);
 
-/// Removes it, where this process has made one; the end of the process does so by itself.
-void remove_work_folder();
-
 /// Below it, for the driver alone.
 std::filesystem::path driver_folder(const std::filesystem::path& work_folder);
 /// Below it: programs that the cache has no room for.
