@@ -60,9 +60,6 @@ constexpr Domain between(double lowest, double highest) {
 constexpr Domain strictly_between(double lowest, double highest) {
     return {.lowest = lowest, .highest = highest, .above_lowest = true, .below_highest = true};
 }
-constexpr Domain greater_up_to(double lowest, double highest) {
-    return {.lowest = lowest, .highest = highest, .above_lowest = true};
-}
 constexpr Domain whole_number(double lowest, double highest) {
     return {.lowest = lowest, .highest = highest, .whole = true};
 }

@@ -140,11 +140,12 @@ std::vector<Option> compare_options(CompareOptions& c) {
          &c.figures.epsilon,
          "relMSE is the mean of (A - B)^2 / (B^2 + epsilon)",
          {.domain = at_least(0)}},
-        // Larger ones only make filters that no image is large enough for.
+        // Of fewer, filters are narrower than a pixel and have no slope; of more, larger than
+        // images.
         {"--ppd",
          &c.figures.pixels_per_degree,
          "FLIP's pixels per degree",
-         {.domain = greater_up_to(0, 10000)}}};
+         {.domain = between(1, 10000)}}};
     for (const std::vector<Option>& more : {limit_options(c), z_test_options(c)})
         options.insert(options.end(), more.begin(), more.end());
     return options;

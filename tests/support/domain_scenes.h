@@ -96,6 +96,10 @@ inline std::string domain_scene(const NumberParameter& p, std::string_view plugi
             scene.camera_numbers += "<float name='fov' value='10'/>";
     }
     if (p.tag == "shape") scene.shape = plugin, scene.shape_numbers = number;
+    if (p.tag == "spectrum")
+        scene.emitter = fmt::format("<emitter type='constant'><spectrum name='radiance' "
+                                    "value='{}:1, 1e9:1'/></emitter>",
+                                    value);
     if (p.tag == "transform")
         scene.shape_numbers =
             "<transform name='to_world'>" + step_element(plugin, p.name, value) + "</transform>";

@@ -145,4 +145,5 @@ TEST_CASE("Domains: numbers of films", "[domains]") { walk("film"); }
 TEST_CASE("Domains: numbers of filters", "[domains]") { walk("rfilter"); }
 TEST_CASE("Domains: numbers of samplers", "[domains]") { walk("sampler"); }
 TEST_CASE("Domains: numbers of integrators", "[domains]") { walk("integrator"); }
+TEST_CASE("Domains: numbers of spectra", "[domains]") { walk("spectrum"); }
 TEST_CASE("Domains: numbers of transforms", "[domains]") { walk("transform"); }

@@ -35,6 +35,8 @@ constexpr Domain field_of_view{
     .lowest = 1e-9, .highest = 180, .below_highest = true, .unit = "degrees"};
 constexpr Domain half_angle = strictly_between(0, 180).in("degrees");
 
+constexpr Domain wavelength = between(1e-3, 1e9).in("nanometres");
+
 constexpr std::string_view dielectrics = "dielectric thindielectric roughdielectric";
 constexpr std::string_view power = "a power that single precision holds in the scene's unit";
 constexpr std::string_view cameras = "perspective thinlens";
@@ -109,6 +111,8 @@ constexpr NumberParameter parameters[] = {
     {"integrator", "path direct depth aov moment", "samples_per_pass", whole, count},
     {"integrator", "path direct depth aov moment", "timeout", real,
      Domain{.highest = 0.0}.in("seconds"), "pictures do not depend on the time they take"},
+
+    {"spectrum", "value filename", "wavelength", step, wavelength, "increasing"},
 
     {"transform", "translate", "x, y, z", step, coordinate},
     {"transform", "scale", "x, y, z", step, coordinate, "shapes: none 0"},

@@ -18,7 +18,7 @@ enum class NumberForm {
     color,  ///< <rgb>, <spectrum> or <float>: each of its values
     vector, ///< <point> or <vector>: each of its coordinates
     text,   ///< <string> with a number in it
-    step,   ///< an attribute of an element inside <transform>
+    step,   ///< in an element inside <transform>, or a pair inside <spectrum>
 };
 
 struct NumberParameter {

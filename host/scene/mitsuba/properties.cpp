@@ -163,7 +163,8 @@ Rgb Properties::color(std::string_view name, const Rgb& missing, SpectrumUse use
         if (converted.clamped)
             note(name, fmt::format("{} lies outside the sRGB gamut and was moved to its border",
                                    in_quotes(name)));
-        return converted.color;
+        return {checked(name, converted.color.r), checked(name, converted.color.g),
+                checked(name, converted.color.b)};
     }
     if (!std::holds_alternative<double>(parameter->value) &&
         !std::holds_alternative<std::int64_t>(parameter->value))

@@ -2,7 +2,10 @@
 #include "host/scene/mitsuba/spectrum.h"
 
 #include "host/scene/mitsuba/cie_tables.h"
+#include "host/scene/mitsuba/number_parameters.h"
 #include "host/scene/text.h"
+
+#include <fmt/format.h>
 
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
@@ -45,6 +48,11 @@ Rgb parse_hex_color(std::string_view digits, const SourceLocation& place) {
 }
 
 void check_wavelengths(const SpectrumValue& spectrum, const SourceLocation& place) {
+    const Domain& domain = number_parameter("spectrum", "value", "wavelength").domain;
+    for (const double nm : spectrum.wavelengths)
+        if (!placed(domain, nm))
+            refuse(place, fmt::format("the wavelength {} of a spectrum (accepted: {})", nm,
+                                      accepted_text(domain)));
     if (spectrum.wavelengths.size() < 2)
         refuse(place, "a spectrum needs at least two wavelength:value pairs");
     for (std::size_t i = 1; i < spectrum.wavelengths.size(); ++i)
