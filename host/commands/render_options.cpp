@@ -142,9 +142,10 @@ std::vector<Option> program_options(RenderCommand& c) {
 
 std::vector<Option> kernel_options(RenderCommand& c) {
     std::vector<Option> options = light_options(c);
-    append(options, {{"--device", &c.device,
-                      "Device by index or part of its name (see `parhelion devices`)"},
-                     {"-q,--quiet", &c.quiet, "No progress"}});
+    append(
+        options,
+        {{"--device", &c.device, "Device by index or part of its name (see `parhelion devices`)"},
+         {"-q,--quiet", &c.quiet, "No progress and notes; warnings and errors are told"}});
     append(options, program_options(c));
     return options;
 }

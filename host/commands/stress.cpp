@@ -122,7 +122,7 @@ Subcommand stress_subcommand() {
                     {"--seed", &c->seed, "Of the random inputs", {.domain = seed_domain}},
                     {"--device", &c->device, "Index, or part of a name (see `parhelion devices`)"},
                     {"--force", &c->force, "Replace existing files"},
-                    {"-q,--quiet", &c->quiet, "No progress"}},
+                    {"-q,--quiet", &c->quiet, "No progress; errors are told"}},
         .run = [c] { return run_stress(*c); },
     };
 }
