@@ -25,8 +25,9 @@ HEADER += "".join(
     redundant-move pessimizing-move div-by-zero aggressive-loop-optimizations array-bounds
     misleading-indentation return-type""".split()
 )
-# Where C++ takes in the kernels' text.
-TAKES_IN_KERNELS = re.compile(r'^\s*#include "(?:kernels/\w+\.cl|kernels/shared/shared\.h|device/)', re.M)
+# Where C++ takes in the kernels' text, and what they share.
+TAKES_IN_KERNELS = re.compile(r'^\s*#include "(?:kernels/\w+\.cl|device/)', re.M)
+TAKES_IN_SHARED = re.compile(r'^\s*#include "kernels/shared/shared\.h', re.M)
 
 
 def with_number(file, text):
@@ -47,10 +48,15 @@ def changed_texts(texts, mutants):
             text = text.replace("inline constexpr double", "inline const double")
         changed[file] = text if re.search(r"^kernels/|\.inl$", file) else with_number(file, text)
     # Of tables: the file that they are part of.
+    shared = any(file.startswith("kernels/shared/") for file in by_file)
     for file, text in texts.items():
         if file.startswith("host/") and file not in changed:
-            includes = re.findall(r'#include "([^"]+\.inl)"', text)
-            if TAKES_IN_KERNELS.search(text) or any(name in by_file for name in includes):
+            tables = re.findall(r'#include "([^"]+\.inl)"', text)
+            if (
+                TAKES_IN_KERNELS.search(text)
+                or (shared and TAKES_IN_SHARED.search(text))
+                or any(name in by_file for name in tables)
+            ):
                 changed[file] = with_number(file, text)
     # Kernels are told the number where the fault is theirs: their programs are kept otherwise.
     last = max((m.number for m in mutants if m.file.startswith("kernels/")), default=0)
