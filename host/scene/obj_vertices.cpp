@@ -124,6 +124,7 @@ std::string_view whole_obj_line(LineReader& lines) {
 }
 
 std::string_view first_word(std::string_view line) {
+    line = without_utf8_mark(line); // inside of files that were put together
     const std::size_t start = line.find_first_not_of(" \t\v\f");
     if (start == std::string_view::npos) return {};
     line.remove_prefix(start);

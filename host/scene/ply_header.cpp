@@ -1,6 +1,7 @@
 // The header of a PLY file: which elements with which properties follow, in which encoding.
 #include "host/scene/ply_header.h"
 
+#include "host/scene/data_text.h"
 #include "host/scene/text.h"
 
 #include <algorithm>
@@ -111,7 +112,7 @@ void HeaderReader::skip(std::string_view word) {
 }
 
 bool HeaderReader::read(std::string_view line) {
-    const Words words = split(line, " \t\r");
+    const Words words = split(without_utf8_mark(line), " \t\r");
     const bool first = place_.line++ == 0;
     if (first && (words.size() != 1 || words[0] != "ply"))
         refuse(place_, "not a PLY file: it does not start with a line \"ply\"");

@@ -92,9 +92,9 @@ Outline coast(int n) {
 
 /// A band wound n / 20000 times and once more.
 Outline spiral(int n) {
-    const double turns = 1.0 + n / 20000;
+    const double turns = 1.0 + std::floor(n / 20000.0);
     const auto at = [&](int i, double r) {
-        const double angle = 2.0 * std::numbers::pi * turns * i / (n / 2);
+        const double angle = 2.0 * std::numbers::pi * turns * 2.0 * i / n;
         return glm::dvec3((r + angle) * std::cos(angle), (r + angle) * std::sin(angle), 0.0);
     };
     Outline p;
