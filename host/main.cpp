@@ -6,6 +6,8 @@
 #include "host/error.h"
 #include "host/streams.h"
 
+#include <fmt/format.h>
+
 #include <exception>
 #include <new>
 #include <string>
