@@ -1,6 +1,7 @@
 // Compiling kernel files, or reading back what was compiled before.
 #include "host/cl/program.h"
 
+#include "host/cl/driver_watch.h"
 #include "host/cl/source.h"
 #include "host/error.h"
 
@@ -105,8 +106,9 @@ void Program::build_source(const cl::Context& context, const Device& device,
         program_.build({device.handle}, source.options.c_str());
     } catch (const cl::Error& e) {
         std::string log = first_errors(program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle));
-        throw DeviceError(fmt::format("kernel file {} does not compile on {}: {}\n{}", source.name,
-                                      device.name, opencl_error_name(e.err()), log));
+        throw DeviceError(fmt::format("kernel file {} does not compile on {}: {}{}\n{}",
+                                      source.name, device.name, opencl_error_name(e.err()),
+                                      memory_limit_text(), log));
     }
 }
 
