@@ -208,9 +208,14 @@ def changes(text, names):
             if token not in ("==", "!=") and not can_tie(before, after, rest):
                 continue
             put("comparison", i, i + 1, COMPARISONS[token])
-        elif before in (".", "->") and token in AXES and after != "(":
+        elif (
+            before in (".", "->")
+            and token in AXES
+            and after != "("
+            and (token in "xyz" or "." + AXES[token] in names)
+        ):
             put("axis", i, i + 1, AXES[token])
-        elif SWAPPED.get(token) in names and after != "::" and not (len(token) == 1 and before in (".", "->")):
+        elif ("." if before in (".", "->") else "") + SWAPPED.get(token, "") in names and after != "::":
             put("swapped", i, i + 1, SWAPPED[token])
         elif token == "HAS" and after == "(":
             put("guard", i, closing(tokens, i + 1) + 1, "1")

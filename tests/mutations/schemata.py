@@ -146,7 +146,8 @@ def mutants_of(file, text):
 
     for begin, end in bodies(plain):
         head = max(plain.rfind(mark, 0, begin - 1) for mark in ("}", ";"))
-        names = set(re.findall(r"\w+", plain[head + 1 : end]))
+        # Members with their dot.
+        names = set(re.findall(r"(?<![\w.])\w+|\.\w+", plain[head + 1 : end].replace("->", ".")))
         for shape, a, b in statements(plain, begin, end):
             if '"' in plain[a:b]:
                 continue
