@@ -16,8 +16,8 @@
 
 // Rows of the light table. An area emitter has one row for each of its primitives.
 #define EMITTERS(X)                                                                                \
-    X(area_triangle) X(area_parallelogram) X(area_tiny_triangle) X(area_sphere) X(area_disk)        \
-    X(point) X(spot) X(directional) X(constant)
+    X(area_triangle) X(area_parallelogram) X(area_sphere) X(area_disk) X(point) X(spot)              \
+    X(directional) X(constant) X(area_tiny_triangle)
 
 // First-hit values beside the radiance: name, number of channels, suffixes of the channel names. A channel without suffix is
 // for the host: of a position, 1, to know how much of a pixel has one.

@@ -136,11 +136,20 @@ inline void add_constant(Scene& scene, int, Rgb power, Where) {
     scene.emitters.push_back(ConstantEmitter{power});
 }
 
+constexpr double tiny_side = 1e-5;
+/// So small that its corners cannot be told apart from the camera; it fills no tile of the panel.
+inline void add_area_tiny_triangle(Scene& scene, int which, Rgb power, Where) {
+    constexpr double side = tiny_side;
+    glm::dvec3 at(which ? 1.2 : -1.4, 1.6, 0.7);
+    Mesh m;
+    m.positions = {at, at + glm::dvec3(side, 0, 0), at + glm::dvec3(0, 0.2 * side, side)};
+    m.triangles = {{0, 1, 2}};
+    add_lamp(scene, m, power);
+}
 struct LightKind {
     const char* name;
     Feature feature;
     void (*add)(Scene&, int which, Rgb power, Where);
-    bool is_surface() const { return feature <= feature_emitter_area_disk; }
     int examples() const { return feature == feature_emitter_constant ? 1 : 2; }
 };
 #define LIGHT_KIND(name) LightKind{#name, feature_emitter_##name, add_##name},
@@ -156,7 +165,10 @@ inline std::vector<Light> example_lights() {
     for (std::size_t kind = 0; kind < light_kinds.size(); kind++)
         for (int which = 0; which < light_kinds[kind].examples(); which++) {
             auto n = static_cast<double>(lights.size());
-            double scale = kind < emitter_point ? 4 : kind < emitter_directional ? 1 : 0.1;
+            double scale = kind < emitter_point         ? 4
+                           : kind < emitter_directional ? 1
+                           : kind <= emitter_constant   ? 0.1
+                                                        : 4 / (tiny_side * tiny_side);
             lights.push_back({kind, which, scale * Rgb(1 + 0.2 * n, 3 - 0.15 * n, 1 + which)});
         }
     return lights;
