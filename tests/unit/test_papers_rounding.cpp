@@ -51,9 +51,10 @@ TEST_CASE("Papers: bounds of a hit's rounding error, Pharr, Jakob and Humphreys 
     double g = gamma_of(7);
     check_vector(s.error, g * (3 * 0.25 + 7 * 0.25 + 2 * 0.5), g * (4 * 0.25 + 8 * 0.25 + 6 * 0.5),
                  g * (5 * 0.25 + 9 * 0.25 + 1 * 0.5));
-    // A third coordinate that rounds below 0 takes nothing off: its size counts, like the others'.
-    s = f32::surface_triangle(p, 0.5f, 0.5f + 0x1p-24f * 4);
-    CHECK(s.error.x >= g * (7 * 0.5 + 2 * 0.5) * (1 - 1e-6));
+    // A third coordinate below 0 takes nothing off: its size counts, like the others'.
+    s = f32::surface_triangle(p, 0.75f, 0.5f);
+    check_vector(s.error, g * (3 * 0.25 + 7 * 0.75 + 2 * 0.5), g * (4 * 0.25 + 8 * 0.75 + 6 * 0.5),
+                 g * (5 * 0.25 + 9 * 0.75 + 1 * 0.5));
 
     p.bx = 1, p.by = 0, p.bz = 0, p.cx = 0, p.cy = 0, p.cz = 1;
     p.extra = 2;
@@ -88,6 +89,10 @@ TEST_CASE("Papers: bounds of a point on a light", "[papers]") {
     f32::EmitterSample s = f32::emitter_area_disk_sample(l, f32::v3(0, 0, 0), u);
     double g = gamma_of(7), x = std::fabs(d.x), y = std::fabs(d.y);
     check_vector(s.q_error, g * (1 + 2 * x), g * (10 + 0.5 * y), g * (3 + x + y));
+    l.kind = emitter_area_sphere, l.bx = 0.5f;
+    s = f32::emitter_area_sphere_sample(l, f32::v3(0, 0, 0), u);
+    check_vector(s.q_error, g * (1 + std::fabs(s.q.x - 1)), g * (10 + std::fabs(s.q.y - 10)),
+                 g * (3 + std::fabs(s.q.z + 3)));
     // Of corners: by area far away, plus 16 half-ulps of what the walk computes with.
     f32::vec3 p = f32::v3(500, 400, 300);
     f32::Light t{};
