@@ -123,7 +123,7 @@ std::vector<unsigned char> Program::binary() const {
 
 std::string Program::store(const ProgramCache& cache) const {
     if (!kept_ && from_cache_) return {};
-    if (kept_ && kept_->is_stored()) return {};
+    if (kept_ && kept_->is_stored() && cache.contains(key_)) return {};
     std::vector<unsigned char> bytes = kept_ ? kept_->packed() : binary();
     if (bytes.empty()) return {};
     std::string reason = cache.store(key_, bytes);

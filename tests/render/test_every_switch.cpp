@@ -29,7 +29,7 @@ Rgb panel_truth(const Scene& scene, int tile) {
     if (!is_lamp) return shows_light(integrator) ? sky : nothing;
     const Shape& lamp = scene.shapes[object_count + static_cast<std::size_t>(tile)];
     if (shows_light(integrator)) return *lamp.radiance;
-    glm::dvec3 to(tile - 4.0, 0, panel_z - 10);
+    glm::dvec3 to(tile - 4.0, 0, view_distance(scene));
     const auto* ball = std::get_if<Sphere>(&lamp.geometry);
     if (integrator.kind == IntegratorKind::depth)
         return Rgb(glm::length(to) - (ball ? ball->radius : 0));

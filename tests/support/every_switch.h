@@ -58,6 +58,9 @@ inline void set_vertex_normals(Setup& s, bool on) {
 inline void set_consistent_normals(Setup& s, bool on) {
     s.scene.integrator.shading_normals = on ? ShadingNormals::consistent : ShadingNormals::raw;
 }
+inline void set_soft_terminator(Setup& s, bool on) {
+    s.scene.integrator.shading_normals = on ? ShadingNormals::soft : ShadingNormals::consistent;
+}
 inline void set_vertex_uvs(Setup& s, bool on) {
     if (!on) change_meshes(s.scene, [](Mesh& m) { m.uvs.clear(); });
 }
@@ -86,7 +89,19 @@ inline void set_sobol(Setup& s, bool on) {
     s.scene.sampler.pattern = on ? SamplePattern::sobol : SamplePattern::independent;
 }
 inline void set_thin_lens(Setup& s, bool on) {
-    s.scene.camera.aperture_radius = on ? 0.02 : 0, s.scene.camera.focus_distance = 20;
+    s.scene.camera.aperture_radius = on ? 0.02 : 0;
+    s.scene.camera.focus_distance = view_distance(s.scene);
+}
+/// On: as much of the panel from much farther away.
+inline void set_far_camera(Setup& s, bool on) {
+    if (!on) return;
+    Camera& camera = s.scene.camera;
+    double near = view_distance(s.scene), far = 1e5;
+    camera.to_world[3] -= (far - near) * camera.to_world[2];
+    double half = std::tan(*camera.fov_degrees * std::numbers::pi / 360) * near / far;
+    camera.fov_degrees = 360 / std::numbers::pi * std::atan(half);
+    camera.far_clip = 2 * far;
+    camera.focus_distance = far;
 }
 inline void set_filter(Setup& s, bool on, FilterMethod method) {
     s.scene.film.filter.kind = on ? FilterKind::gaussian : FilterKind::box;

@@ -235,6 +235,11 @@ inline Scene panel_scene() {
     scene.sampler.samples_per_pixel = 2;
     return scene;
 }
+/// From the camera to the panel; as far beyond the objects where it looks at those.
+inline double view_distance(const Scene& scene) {
+    bool at_panel = scene.camera.to_world[2].z > 0;
+    return std::abs(scene.camera.to_world[3].z - (at_panel ? panel_z : -14));
+}
 /// The pixel in the middle of a tile; image x runs along -x.
 inline std::size_t tile_centre(int tile) {
     int x = tile_pixels * (panel_tiles - 1 - tile) + tile_pixels / 2;

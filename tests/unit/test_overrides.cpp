@@ -132,7 +132,7 @@ std::vector<Precedence> table() {
          integrator(&Integrator::shading_normals),
          "0",
          "0",
-         "1"},
+         std::to_string(static_cast<int>(ShadingNormals::raw))},
         {"--no-energy-compensation",
          {"--no-energy-compensation"},
          compensation,
