@@ -10,9 +10,9 @@ namespace parhelion {
 
 /// For the program itself, at its start. From then on, what ends the process during watch_driver
 /// (the driver's compiler calls exit or abort, or crashes where memory or disk space run out), and
-/// a call that does nothing for half a minute, are told as failures of the device: one line on standard
-/// error, with the last line that the driver printed, and exit code 3. Without it, as in tests, all
-/// of these happen as ever.
+/// a call that does nothing for half a minute, are told as failures of the device: one line on
+/// standard error, with the last line that the driver printed, and exit code 3. Without it, as in
+/// tests, all of these happen as ever.
 void report_ends_by_driver();
 
 /// What the program's own abort() does: where the driver calls it, tells so. (LLVM puts its own

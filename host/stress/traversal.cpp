@@ -30,8 +30,7 @@ std::vector<T> host_copy(const RenderDevice& d, const Buffer<T>& buffer) {
 }
 
 Program compile(const RenderDevice& d, const ProgramOptions& options) {
-    return {d.context, d.device, d.cache,
-            program_source({"intersect.cl", "shadow.cl"}, options)};
+    return {d.context, d.device, d.cache, program_source({"intersect.cl", "shadow.cl"}, options)};
 }
 
 ProgramOptions with_streams(ProgramOptions options, bool streams) {
