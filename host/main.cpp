@@ -41,7 +41,7 @@ CommandLine command_line() {
 } // namespace
 
 // Also what libraries call.
-extern "C" [[noreturn]] void abort() noexcept { parhelion::end_by_abort(); }
+extern "C" void abort() noexcept { parhelion::end_by_abort(); }
 
 int main(int argc, char** argv) {
     const StandardStreams streams;

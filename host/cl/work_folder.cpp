@@ -97,7 +97,7 @@ std::string why_not(const fs::path& place) {
     return reason;
 }
 
-fs::path make_work_folder(std::vector<fs::path> places) {
+fs::path make_work_folder(const std::vector<fs::path>& places) {
     std::string tried;
     for (const fs::path& place : places) {
         if (place.empty()) continue;

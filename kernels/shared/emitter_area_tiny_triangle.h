@@ -7,7 +7,12 @@ FN EmitterSample emitter_area_tiny_triangle_sample(Light l, vec3 p, vec2 u) {
     EmitterSample s = emitter_edges_sample(l, p, at);
     // As emitter_corners_error, for corners that are all where a is.
     vec3 to = abs3(sub3(light_a(l), p));
-    s.q_error = add3(s.q_error, splat3(max_component(to) * (3.f * GAMMA(16.f))));
+    Real error = max_component(to) * (3.f * GAMMA(16.f));
+    // The record's corner and the primitive's are each rounded to single precision, whatever Real
+    // is: 2^-24 of their place in x, y and z, so that their planes are no more than 4 of that
+    // apart.
+    error = error + max_component(abs3(light_a(l))) * R(2.384185791015625e-7);
+    s.q_error = add3(s.q_error, splat3(error));
     return s;
 }
 

@@ -23,8 +23,8 @@ struct TrialOptions {
 };
 
 /// Loads and renders on the host, in single and double precision, and on the device. It fails where
-/// device and host differ in a bit, a value is not finite and nobody is told, or anything but a
-/// refusal is thrown. `programs`: sets of features so far.
+/// device and host differ in a bit, a value is not finite and nobody is told when it is written, or
+/// anything but a refusal is thrown. `programs`: sets of features so far.
 Outcome try_scene(const RandomScene& scene, const TrialOptions& options,
                   std::set<std::uint64_t>& programs);
 

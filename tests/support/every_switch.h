@@ -92,10 +92,20 @@ inline void set_thin_lens(Setup& s, bool on) {
     s.scene.camera.aperture_radius = on ? 0.02 : 0;
     s.scene.camera.focus_distance = view_distance(s.scene);
 }
-/// On: as much of the panel from much farther away.
+inline void move(Geometry& geometry, const glm::dvec3& by) {
+    if (auto* mesh = std::get_if<Mesh>(&geometry))
+        for (glm::dvec3& p : mesh->positions)
+            p += by;
+    if (auto* sphere = std::get_if<Sphere>(&geometry)) sphere->center += by;
+    if (auto* disk = std::get_if<Disk>(&geometry)) disk->center += by;
+}
+/// On: as much to be seen, from much farther away.
 inline void set_far_camera(Setup& s, bool on) {
     if (!on) return;
     Camera& camera = s.scene.camera;
+    if (camera.to_world[2].z > 0) // objects are out of the way of the panel
+        for (std::size_t i = 0; i < object_count; i++)
+            move(s.scene.shapes[i].geometry, {0, 60, 0});
     double near = view_distance(s.scene), far = 1e5;
     camera.to_world[3] -= (far - near) * camera.to_world[2];
     double half = std::tan(*camera.fov_degrees * std::numbers::pi / 360) * near / far;
