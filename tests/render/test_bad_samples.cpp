@@ -21,6 +21,7 @@ using Catch::Contains;
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr int samples = 20; // a group and a rest
 
 /// A floor that fills the view, and before it a square of material 1, lit from the camera's side.
 Scene square_scene() {

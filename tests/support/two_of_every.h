@@ -187,7 +187,8 @@ inline void add_objects(Scene& scene) {
     scene.shapes.push_back(shape_of(quad({-4, -1, -4}, {0, 0, 8}, {8, 0, 0}), 0, 0));
     scene.shapes.push_back(shape_of(quad({-4, -1, -2}, {8, 0, 0}, {0, 5, 0}), 1, no_material));
     for (int k = 0; k < 2 * material_kind_count; k++) {
-        glm::dvec3 at(-2.4 + 0.8 * (k % 7), -0.5 + 0.9 * (k / 7), -0.4 * (k / 7));
+        int row = k / 7;
+        glm::dvec3 at(-2.4 + 0.8 * (k % 7), -0.5 + 0.9 * row, -0.4 * row);
         auto make = example_shapes[static_cast<std::size_t>(k) % example_shapes.size()];
         bool opaque = material_is_opaque[static_cast<std::size_t>(k / 2)] != 0;
         // Every other opaque one is black from behind.
@@ -243,7 +244,8 @@ inline double view_distance(const Scene& scene) {
 /// The pixel in the middle of a tile; image x runs along -x.
 inline std::size_t tile_centre(int tile) {
     int x = tile_pixels * (panel_tiles - 1 - tile) + tile_pixels / 2;
-    return static_cast<std::size_t>(2 * tile_pixels * panel_tiles + x);
+    int y = 2;
+    return static_cast<std::size_t>(y) * (tile_pixels * panel_tiles) + static_cast<std::size_t>(x);
 }
 
 } // namespace parhelion::test
