@@ -32,7 +32,8 @@ inline std::string transform_text(const std::string& own, const glm::dvec2& plac
 
 /// One shape alone in the middle, then all of them side by side: its numbers change, nothing else.
 inline glm::dvec2 place_of(std::size_t i) {
-    return {-2.4 + 1.6 * double(i % 4), 0.8 - 1.6 * double(i / 4)};
+    std::size_t column = i % 4, row = i / 4;
+    return {-2.4 + 1.6 * double(column), 0.8 - 1.6 * double(row)};
 }
 
 inline double turns(double y, double x) {

@@ -74,7 +74,7 @@ TEST_CASE("Packed files: none, some, damaged ones, and places outside", "[unit]"
     Folder folder;
     fs::create_directories(folder.path / "in/a/b");
     std::ofstream(folder.path / "in/a/b/one.so") << std::string("o\0e", 3);
-    std::ofstream(folder.path / "in/a/empty");
+    std::ofstream(folder.path / "in/a/empty") << "";
     const std::vector<std::string> files = {"a/b/one.so", "a/empty"};
     auto bytes = pack_files(folder.path / "in", files);
     REQUIRE(bytes);
