@@ -1,7 +1,7 @@
 // What covers a pixel, and what a hidden emitter is: sheets that let rays straight through, opaque
 // ones, lights and skies one behind the other. The figures are those of Mitsuba 3.9.1 (scalar_rgb),
-// measured for each row; R and alpha of a path are its own, so that noise is that of Fresnel's
-// share alone.
+// measured but for the rows tt, nt, tn and n0, which follow the rule of the others; R and alpha of
+// a path are its own, so that noise is that of Fresnel's share alone.
 #include "host/oracle/sample_trace.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/host_render.h"
