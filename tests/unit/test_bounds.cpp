@@ -1,7 +1,8 @@
 // The kernels on the host look after the bounds of their buffers: a table that is shorter than a
 // feature believes is told by its name, whichever of the list it is.
-#include "host/oracle/sample_trace.h"
+#include "host/oracle/wave_memory.h"
 #include "host/oracle/work_item.h"
+#include "host/render/render_params.h"
 #include "tests/support/two_of_every.h"
 
 #include <catch2/catch.hpp>
@@ -33,11 +34,28 @@ struct Table {
 #define TABLE(type, name) Table{#name, empty_##name},
 constexpr std::array tables{SCENE_BUFFERS(TABLE)};
 
-void trace_every_pixel(const Scene& scene, const DeviceScene& flat) {
-    for (int y = 0; y < scene.film.height; y++)
-        for (int x = 0; x < scene.film.width; x++)
-            for (int sample = 0; sample < 4; sample++)
-                trace_sample(scene, flat, x, y, sample);
+/// All stages over one wave of the whole film: whole tables for what the host asks of them, others
+/// for the kernels.
+void run_every_stage(const Scene& scene, const DeviceScene& whole, const DeviceScene& seen) {
+    AovPlan aovs = plan_aovs(scene);
+    WorkSplit split;
+    split.streams = 1;
+    WorkSizes sizes =
+        work_sizes(sample_window(scene.film), 4, 1, film_channels(scene.integrator, aovs), split);
+    WaveMemory<float> memory(sizes);
+    HostLaunch<float> launch{scene_arrays(seen), render_params(scene, whole, sizes, aovs),
+                             whole.features, WaveParams{0, sizes.blocks_per_wave, 0, 4}, memory};
+    auto run = [&](Stage stage, int depth, int work_items) {
+        for (int number = 0; number < work_items; number++)
+            run_work_item(stage, launch, depth, number);
+    };
+    run(Stage::generate, 0, sizes.segments);
+    for (int depth = 0; depth < launch.params.max_depth; depth++) {
+        run(Stage::intersect, depth, sizes.segments);
+        run(Stage::shade, depth, sizes.segments);
+        run(Stage::shadow, depth, sizes.segments);
+    }
+    run(Stage::accumulate, 0, launch.wave.block_count);
 }
 
 } // namespace
@@ -50,10 +68,11 @@ TEST_CASE("Bounds: every table of a scene is looked after", "[bounds]") {
         if (std::string(table.name) == "filter_table")
             scene.film.filter_method = FilterMethod::sampling;
         set_energy_compensation(scene, std::string(table.name) == "energy_tables");
-        DeviceScene flat = make_device_scene(scene);
-        trace_every_pixel(scene, flat);
-        table.empty(flat);
-        CHECK_THROWS_WITH(trace_every_pixel(scene, flat),
+        DeviceScene whole = make_device_scene(scene);
+        run_every_stage(scene, whole, whole);
+        DeviceScene emptied = whole;
+        table.empty(emptied);
+        CHECK_THROWS_WITH(run_every_stage(scene, whole, emptied),
                           Catch::EndsWith(std::string("from ") + table.name + " on") ||
                               Catch::EndsWith("from no buffer on"));
     }
