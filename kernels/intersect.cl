@@ -11,9 +11,10 @@ FN void intersect_packets(global const BvhNode* nodes, global const BvhLine* lea
     for (int at = begin; at < end; at += LANES) {
         PacketRay rays = packet_ray(v3(PATH_LOAD_REAL(ox), PATH_LOAD_REAL(oy), PATH_LOAD_REAL(oz)),
                                     v3(PATH_LOAD_REAL(dx), PATH_LOAD_REAL(dy), PATH_LOAD_REAL(dz)),
-                                    params.extent);
-        PacketHit hit = traverse_packet(nodes, leaves, root, rays, PATH_LOAD_REAL(t),
-                                        PATH_LOAD_INT(excluded), active_lanes(end - at), 0);
+                                    tree_sizes(params));
+        PacketHit hit =
+            traverse_packet(nodes, leaves, root, rays, tree_sizes(params), PATH_LOAD_REAL(t),
+                            PATH_LOAD_INT(excluded), active_lanes(end - at), 0);
         PATH_STORE_REAL(t, hit.t);
         PATH_STORE_REAL(b1, hit.b1);
         PATH_STORE_REAL(b2, hit.b2);
@@ -30,7 +31,7 @@ kernel void intersect(KERNEL_PARAMETERS) {
     int root = depth == 0 ? params.camera_root : params.root;
     if (HAS(ray_streams) && depth > 0)
         traverse_stream(bvh_nodes, bvh_leaves, root, path_state, params.state_stride, base, end, 0,
-                        params.extent);
+                        tree_sizes(params));
     else
         intersect_packets(bvh_nodes, bvh_leaves, root, path_state, params, base, end);
     if (depth > 0)

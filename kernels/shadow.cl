@@ -8,11 +8,12 @@
 /// Which lanes of a packet of shadow rays have something in their way.
 FN Mask shadow_packet(global const BvhNode* nodes, global const BvhLine* leaves,
                       global const float* shadow_state, RenderParams params, int at, Mask active) {
-    PacketRay rays = packet_ray(
-        v3(SHADOW_LOAD_REAL(ox), SHADOW_LOAD_REAL(oy), SHADOW_LOAD_REAL(oz)),
-        v3(SHADOW_LOAD_REAL(dx), SHADOW_LOAD_REAL(dy), SHADOW_LOAD_REAL(dz)), params.extent);
-    PacketHit hit = traverse_packet(nodes, leaves, params.root, rays, SHADOW_LOAD_REAL(t),
-                                    SHADOW_LOAD_INT(excluded), active, 1);
+    PacketRay rays =
+        packet_ray(v3(SHADOW_LOAD_REAL(ox), SHADOW_LOAD_REAL(oy), SHADOW_LOAD_REAL(oz)),
+                   v3(SHADOW_LOAD_REAL(dx), SHADOW_LOAD_REAL(dy), SHADOW_LOAD_REAL(dz)),
+                   blocking_sizes(params));
+    PacketHit hit = traverse_packet(nodes, leaves, params.root, rays, blocking_sizes(params),
+                                    SHADOW_LOAD_REAL(t), SHADOW_LOAD_INT(excluded), active, 1);
     return hit.primitive != NO_PRIMITIVE;
 }
 
@@ -25,7 +26,7 @@ kernel void shadow(KERNEL_PARAMETERS) {
     int end = base + AT(global int, counts, 2 * segment + 1);
     if (HAS(ray_streams))
         traverse_stream(bvh_nodes, bvh_leaves, params.root, shadow_state, params.state_stride, base,
-                        end, 1, params.extent);
+                        end, 1, blocking_sizes(params));
     for (int at = base; at < end; at += LANES) {
         Mask active = active_lanes(end - at);
         Mask blocked = HAS(ray_streams)

@@ -72,6 +72,7 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     params.blocks_x = sizes_.window.blocks_x;
     params.root = params.camera_root = root;
     params.extent = bvh_extent(bvh, root);
+    params.side = bvh.side;
     bind_arguments(intersect_, scene_, work_, film_, params);
     bind_arguments(shadow_, scene_, work_, film_, params);
 }

@@ -76,11 +76,12 @@ bool can_be_hit(const PrimitiveRecord& p) {
            glm::dvec3(0.0);
 }
 
-Reference make_reference(const PrimitiveRecord& primitive, int number) {
+Reference make_reference(const PrimitiveRecord& primitive, int number, float side) {
     std::array<Interval, 3> e = extents(primitive);
-    double margin = longest_side(e) * double(BOX_MARGIN);
-    for (Interval& i : e)
-        i = widened(i, margin);
+    double longest = longest_side(e);
+    if (geometry_kind(primitive) != geometry_triangle || longest > side)
+        for (Interval& i : e)
+            i = widened(i, longest * double(BOX_MARGIN));
     Float4 low = {e[0].low, e[1].low, e[2].low, hide_integer(number)};
     Float4 high = {e[0].high, e[1].high, e[2].high, hide_integer(geometry_kind(primitive))};
     return {{low, high}};

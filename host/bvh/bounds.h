@@ -69,7 +69,8 @@ bool can_be_hit(const PrimitiveRecord& primitive);
 float longest_side(const PrimitiveRecord& primitive);
 
 /// Box and number of a primitive. The box is larger than the primitive's own by BOX_MARGIN of its
-/// longest side: what rounding does to a hit (kernels/shared/intersect.h).
-Reference make_reference(const PrimitiveRecord& primitive, int number);
+/// longest side, what rounding does to a hit (kernels/shared/intersect.h), but for triangles of no
+/// longer a side than `side`.
+Reference make_reference(const PrimitiveRecord& primitive, int number, float side);
 
 } // namespace parhelion

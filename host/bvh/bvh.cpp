@@ -6,24 +6,52 @@
 #include "host/bvh/leaf_layout.h"
 #include "host/bvh/wide_layout.h"
 #include "host/parallel.h"
+#include "kernels/shared/features.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 
 namespace parhelion {
 namespace {
 
+/// The longest side of triangles that are not much larger than most: at most 2^9 times their mean,
+/// that of exponents, which a few large ones do not move.
+template<class NumberOf>
+float usual_side(std::span<const PrimitiveRecord> primitives, std::size_t count,
+                 const NumberOf& number_of) {
+    struct Sides {
+        std::int64_t exponents = 0, triangles = 0;
+        float longest = 0;
+    };
+    auto add = [&](Sides sum, std::size_t i) {
+        const PrimitiveRecord& p = primitives[std::size_t(number_of(i))];
+        float side = longest_side(p);
+        if (geometry_kind(p) != geometry_triangle || !(side > 0 && std::isfinite(side))) return sum;
+        return Sides{sum.exponents + std::ilogb(side), sum.triangles + 1,
+                     std::max(sum.longest, side)};
+    };
+    auto join = [](const Sides& a, const Sides& b) {
+        return Sides{a.exponents + b.exponents, a.triangles + b.triangles,
+                     std::max(a.longest, b.longest)};
+    };
+    Sides all = parallel_sum(count, Sides{}, add, join);
+    if (all.triangles == 0) return 0;
+    return std::min(all.longest, std::ldexp(1.f, int(all.exponents / all.triangles) + 9));
+}
+
 /// Of all primitives that can be hit.
 template<class NumberOf>
 LargeVector<Reference> make_references(std::span<const PrimitiveRecord> primitives,
-                                       std::size_t count, const NumberOf& number_of) {
+                                       std::size_t count, const NumberOf& number_of, float side) {
     LargeVector<Reference> references(count);
     std::atomic<bool> all = true;
     parallel_for(count, [&](std::size_t i) {
         int number = number_of(i);
         const PrimitiveRecord& primitive = primitives[std::size_t(number)];
-        references[i] = make_reference(primitive, number);
+        references[i] = make_reference(primitive, number, side);
         if (!can_be_hit(primitive)) all = false;
     });
     if (!all)
@@ -66,7 +94,9 @@ template<class NumberOf>
 int append_timed(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::size_t count,
                  const NumberOf& number_of, BvhStatistics* statistics, int stack_limit) {
     auto start = std::chrono::steady_clock::now();
-    LargeVector<Reference> references = make_references(primitives, count, number_of);
+    float side = usual_side(primitives, count, number_of);
+    bvh.side = std::max(bvh.side, side);
+    LargeVector<Reference> references = make_references(primitives, count, number_of, side);
     std::size_t used = references.size();
     Built built = append_references(bvh, primitives, std::move(references), stack_limit);
     if (statistics) {

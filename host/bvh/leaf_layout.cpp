@@ -100,6 +100,8 @@ BvhLeaf make_leaf(std::span<const Reference> references,
                   std::span<const PrimitiveRecord> primitives) {
     BvhLeaf leaf{};
     bool triangles = references.front().kind() == geometry_triangle;
+    if (triangles)
+        std::fill_n(leaf.rows[0], 9 * BVH_WIDTH, std::numeric_limits<float>::quiet_NaN());
     std::uint32_t size = triangles ? size_bits(references, primitives) : 0;
     for (std::size_t i = 0; i < BVH_WIDTH; i++) {
         int bit = int(size >> i & 1) << BVH_SIZE_BIT;
@@ -107,11 +109,11 @@ BvhLeaf make_leaf(std::span<const Reference> references,
             leaf.primitive[i] = std::numeric_limits<int>::min() | bit;
             continue;
         }
-        std::array<float, 9> column = leaf_column(primitive_of(references[i], primitives));
+        const PrimitiveRecord& primitive = primitive_of(references[i], primitives);
+        std::array<float, 9> column = leaf_column(primitive);
         for (std::size_t row = 0; row < column.size(); row++)
             leaf.rows[row][i] = column[row];
-        if (primitive_of(references[i], primitives).flags & PRIMITIVE_FLIPPED)
-            bit |= 1 << BVH_SIZE_BIT;
+        if (primitive.flags & PRIMITIVE_FLIPPED) bit |= 1 << BVH_SIZE_BIT;
         leaf.primitive[i] = references[i].primitive() | bit;
     }
     return leaf;

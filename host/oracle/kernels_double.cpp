@@ -33,7 +33,7 @@ struct Kernels : WorkItem {
         for (int at = base; at < end; at++) {
             PacketRay ray = packet_ray(
                 v3(PATH_LOAD_REAL(ox), PATH_LOAD_REAL(oy), PATH_LOAD_REAL(oz)),
-                v3(PATH_LOAD_REAL(dx), PATH_LOAD_REAL(dy), PATH_LOAD_REAL(dz)), params.extent);
+                v3(PATH_LOAD_REAL(dx), PATH_LOAD_REAL(dy), PATH_LOAD_REAL(dz)), tree_sizes(params));
             PlainHit hit = plain_walk(bvh_nodes, bvh_leaves, primitives, root, ray,
                                       PATH_LOAD_REAL(t), PATH_LOAD_INT(excluded), false);
             PATH_STORE_REAL(t, hit.t);
@@ -52,7 +52,7 @@ struct Kernels : WorkItem {
             PacketRay ray =
                 packet_ray(v3(SHADOW_LOAD_REAL(ox), SHADOW_LOAD_REAL(oy), SHADOW_LOAD_REAL(oz)),
                            v3(SHADOW_LOAD_REAL(dx), SHADOW_LOAD_REAL(dy), SHADOW_LOAD_REAL(dz)),
-                           params.extent);
+                           blocking_sizes(params));
             PlainHit hit = plain_walk(bvh_nodes, bvh_leaves, primitives, params.root, ray,
                                       SHADOW_LOAD_REAL(t), SHADOW_LOAD_INT(excluded), true);
             vec3 light = v3(SHADOW_LOAD_REAL(r), SHADOW_LOAD_REAL(g), SHADOW_LOAD_REAL(b));

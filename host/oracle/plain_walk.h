@@ -47,8 +47,7 @@ BoxOverlap plain_box(const BvhNode& node, int k, const PacketRay& r, Real t_max)
         return fmaR(node.bounds[row][k], s.inverse, far ? s.far_offset : s.near_offset);
     };
     return box_overlap(plane(0, r.x, false), plane(1, r.y, false), plane(2, r.z, false),
-                       plane(0, r.x, true), plane(1, r.y, true), plane(2, r.z, true),
-                       t_max * R(HIT_WIDENING));
+                       plane(0, r.x, true), plane(1, r.y, true), plane(2, r.z, true), t_max);
 }
 
 /// The children that a ray meets wait; the one that it enters first comes last.
@@ -76,7 +75,8 @@ PlainHit plain_walk(const BvhNode* nodes, const BvhLine* leaves, const Primitive
     for (int top = 1; top > 0 && !(any_hit && hit.primitive >= 0);) {
         int code = stack[--top];
         if (code >= 0) {
-            top = plain_children(AT(const BvhNode, nodes, code), r, hit.rank, stack, top);
+            top = plain_children(AT(const BvhNode, nodes, code), r,
+                                 any_hit ? hit.rank : hit.rank * R(HIT_WIDENING), stack, top);
             continue;
         }
         plain_leaf(IN_BUFFER(const BvhLine, leaves, ~code >> 2), ~code & 3, [&](int number) {

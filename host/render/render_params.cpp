@@ -59,6 +59,7 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.camera_root = device.camera_root;
     p.root = device.root;
     p.extent = bvh_extent(device.bvh, device.root);
+    p.side = device.bvh.side;
     std::fill(std::begin(p.aov_offset), std::end(p.aov_offset), -1);
     for (const AovLayer& layer : aovs.layers)
         p.aov_offset[layer.kind] = layer.channel;

@@ -35,13 +35,13 @@ struct ReadyRay {
     std::array<int, 3> axis;
     f32::RayShear shear;
 
-    explicit ReadyRay(const Ray& r) : ray(r) {
+    explicit ReadyRay(const Ray& r, f32::TreeSizes sizes = {0, 0}) : ray(r) {
         Vector size;
         for (int a = 0; a < 3; a++)
             size[a] = std::fabs(r.direction[a]);
         float largest = std::max({size[0], size[1], size[2]});
         for (int a = 0; a < 3; a++)
-            slab[a] = f32::ray_slab(r.origin[a], r.direction[a], largest);
+            slab[a] = f32::ray_slab(r.origin[a], r.direction[a], largest, sizes);
         int z = size[0] > size[1] ? (size[0] > size[2] ? 0 : 2) : (size[1] > size[2] ? 1 : 2);
         axis = {(z + 1) % 3, (z + 2) % 3, z};
         shear.origin = renamed(r.origin[0], r.origin[1], r.origin[2]);
@@ -168,7 +168,7 @@ inline Hit walk(const Bvh& bvh, int root, const Ray& ray, std::size_t* peak = nu
         int child;
         float entry;
     };
-    ReadyRay ready(ray);
+    ReadyRay ready(ray, {bvh_extent(bvh, root), bvh.side});
     Hit hit;
     std::vector<Entry> stack{{root, -std::numeric_limits<float>::infinity()}};
     while (!stack.empty()) {

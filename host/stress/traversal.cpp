@@ -192,6 +192,7 @@ RenderParams Traversal::params(const Sizes& s) const {
     params.segment_size = params.segment_stride = segment;
     params.root = params.camera_root = scene_.root;
     params.extent = extent_;
+    params.side = scene_.bvh.side;
     return params;
 }
 

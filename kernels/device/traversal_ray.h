@@ -14,16 +14,15 @@ FN vec3 rename_axes(PacketRay r, vec3 v) {
               sel(r.z_is_x, v.x, sel(r.z_is_y, v.y, v.z)));
 }
 
-/// `extent`: the largest side of a box around all triangles.
-FN PacketRay packet_ray(vec3 origin, vec3 direction, float extent) {
+FN PacketRay packet_ray(vec3 origin, vec3 direction, TreeSizes sizes) {
     PacketRay r;
     r.origin = origin;
     r.direction = direction;
     vec3 size = abs3(direction);
     Real largest = max_component(size);
-    r.x = ray_slab(origin.x, direction.x, largest);
-    r.y = ray_slab(origin.y, direction.y, largest);
-    r.z = ray_slab(origin.z, direction.z, largest);
+    r.x = ray_slab(origin.x, direction.x, largest, sizes);
+    r.y = ray_slab(origin.y, direction.y, largest, sizes);
+    r.z = ray_slab(origin.z, direction.z, largest, sizes);
     r.z_is_x = (size.x > size.y) & (size.x > size.z);
     r.z_is_y = (size.x <= size.y) & (size.y > size.z);
     vec3 d = rename_axes(r, direction);
@@ -31,7 +30,7 @@ FN PacketRay packet_ray(vec3 origin, vec3 direction, float extent) {
     r.shear.shear_x = d.x / d.z;
     r.shear.shear_y = d.y / d.z;
     r.shear.shear_z = 1.f / d.z;
-    r.shear.doubt = ray_doubt(r.shear.shear_z, (Real)extent);
+    r.shear.doubt = ray_doubt(r.shear.shear_z, (Real)sizes.extent);
     return r;
 }
 

@@ -82,9 +82,9 @@ FN int smallest_lane_key(Mask mask, Real value) {
 /// answer.
 FN int walk_node(RayWalk* w, WalkStack* stack, global const BvhNode* node, int any_hit) {
     int next = WALK_ENDS;
-    float next_entry = 0.f;
+    float next_entry = 0.f, limit = any_hit ? w->rank : w->rank * (float)HIT_WIDENING;
     for (int group = 0; group < LANE_GROUPS; group++) {
-        BoxOverlap box = node_overlap(node, group, &w->ray, w->rank * (float)HIT_WIDENING);
+        BoxOverlap box = node_overlap(node, group, &w->ray, limit);
         uint bits = maskBits(box.meets);
         global const int* child = node->child + group * LANES;
         if (any_hit) {
@@ -111,18 +111,17 @@ FN int walk_node(RayWalk* w, WalkStack* stack, global const BvhNode* node, int a
 
 /// Which primitives of a leaf the ray hits before its closest hit, and where.
 typedef struct {
-    uint bits;     // with the doubtful
-    uint doubtful; // walk_take settles them
-    uint back;     // those whose back the ray sees
-    RealLanes t[LANE_GROUPS], b1[LANE_GROUPS], b2[LANE_GROUPS];
+    uint bits;                // with the doubtful
+    uint doubtful;            // walk_take settles them
+    RealLanes t[LANE_GROUPS]; // of the sign of the determinant
+    RealLanes b1[LANE_GROUPS], b2[LANE_GROUPS];
 } LeafHits;
 
 FN void leaf_hits(const RayWalk* w, global const BvhLine* leaf, int form, int any_hit,
                   LeafHits* hits) {
     PatchCorners corners;
     if (form == BVH_PATCH) patch_corners((global const BvhPatch*)leaf, &w->ray, &corners);
-    hits->bits = hits->doubtful = hits->back = 0;
-    int triangles = form == BVH_PATCH || form == geometry_triangle;
+    hits->bits = hits->doubtful = 0;
     float size = leaf_size(form == BVH_PATCH ? ((global const BvhPatch*)leaf)->triangle
                                              : ((global const BvhLeaf*)leaf)->primitive);
     for (int group = 0; group < LANE_GROUPS; group++) {
@@ -133,12 +132,10 @@ FN void leaf_hits(const RayWalk* w, global const BvhLine* leaf, int form, int an
         hits->bits |= maskBits(h.hit | h.doubtful) << (group * LANES);
         hits->doubtful |= maskBits(h.doubtful) << (group * LANES);
         if (any_hit) continue;
-        hits->back |= maskBits(h.determinant < R(0.)) << (group * LANES);
-        hits->t[group].lanes = h.t;
+        hits->t[group].lanes = flipSign(h.t, h.determinant);
         hits->b1[group].lanes = h.b1;
         hits->b2[group].lanes = h.b2;
     }
-    if (triangles && w->ray.shear[2] < 0.f) hits->back = ~hits->back; // sees_back
 }
 
 /// Takes the hits of a leaf; whether the walk is over: for any hit the first one ends it.
@@ -156,9 +153,11 @@ FN int walk_take(RayWalk* w, global const BvhLine* leaf, int form, const LeafHit
             if (settled.t < 0.f) continue;
             hit = settled;
         } else if (!any_hit) {
-            hit.t = hit.rank = hits->t[group].at[lane];
+            float t = hits->t[group].at[lane];
+            hit.t = hit.rank = t < 0.f ? -t : t;
             hit.b1 = hits->b1[group].at[lane], hit.b2 = hits->b2[group].at[lane];
-            if ((hits->back >> k) & 1) hit.rank += leaf_back_delay(leaf, form, k, &w->ray, hit.t);
+            if (leaf_sees_back(form, &w->ray, t))
+                hit.rank += leaf_back_delay(leaf, form, k, &w->ray, hit.t);
         }
         if (any_hit) {
             w->primitive = 0;

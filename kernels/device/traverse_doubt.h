@@ -53,6 +53,13 @@ FN_APART void settle_single(global const BvhLine* leaf, int form, int k, const T
     hit->t = t.at[0], hit->b1 = b1.at[0], hit->b2 = b2.at[0], hit->rank = rank.at[0];
 }
 
+/// Whether the ray sees the back of what it hits (sees_back, certain_hit); `determinant`: of its
+/// sign.
+FN int leaf_sees_back(int form, const TraversalRay* ray, float determinant) {
+    int triangle = form == BVH_PATCH || form == geometry_triangle;
+    return (determinant < 0.f) != (triangle && ray->shear[2] < 0.f);
+}
+
 /// How much farther than its distance the back of primitive k of a leaf ranks, as in
 /// intersect_triangle and ranked().
 FN float leaf_back_delay(global const BvhLine* lines, int form, int k, const TraversalRay* ray,

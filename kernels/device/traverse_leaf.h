@@ -29,7 +29,7 @@ FN TriangleHit triangle_hit(Corners s, RayShear ray, float size, Real t_max, int
                             int rarely) {
     TriangleEdges e = triangle_edges(s, edge_margin_within(s.a.z, size));
     if (any_hit) return triangle_blocks(e, s, ray, t_max);
-    if (rarely && !someLane(e.inside | e.open)) {
+    if (rarely && !someLane(e.inside)) {
         TriangleHit none;
         none.hit = none.doubtful = lanesOf(0);
         none.t = none.rank = none.b1 = none.b2 = none.volume = none.determinant = R(0.);
@@ -40,8 +40,8 @@ FN TriangleHit triangle_hit(Corners s, RayShear ray, float size, Real t_max, int
 
 /// With the rank of backs as intersect_triangle has it; `s`: corners, sheared.
 FN TriangleHit ranked_backs(TriangleHit h, Corners s, RayShear ray) {
-    Mask back = h.hit & sees_back(h.determinant, ray);
-    if (someLane(back)) h.rank = sel(back, h.t + back_delay(s.a.z, s.b.z, s.c.z, ray.shear_z), h.t);
+    Real behind = h.t + back_delay(s.a.z, s.b.z, s.c.z, ray.shear_z);
+    h.rank = sel(sees_back(h.determinant, ray), behind, h.t);
     return h;
 }
 
@@ -71,12 +71,6 @@ FN RayShear single_shear(const TraversalRay* ray) {
     return shear;
 }
 
-/// Places without a triangle are at no time inside, but open.
-FN TriangleHit present(TriangleHit h, Mask there) {
-    h.doubtful = h.doubtful & there;
-    return h;
-}
-
 FN TriangleHit leaf_triangles(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
                               float size, float t_max, int any_hit) {
     int x = ray->axis[0], y = ray->axis[1], z = ray->axis[2];
@@ -87,8 +81,7 @@ FN TriangleHit leaf_triangles(global const BvhLeaf* leaf, int group, const Trave
     s.a = LEAF_CORNER(0);
     s.b = LEAF_CORNER(3);
     s.c = LEAF_CORNER(6);
-    return present(triangle_hit(s, shear, size, (Real)t_max, any_hit, 0),
-                   LOAD_INT(leaf->primitive + group * LANES) >= 0);
+    return triangle_hit(s, shear, size, (Real)t_max, any_hit, 0);
 }
 
 /// The corners of a patch as the ray sees them.
@@ -116,8 +109,10 @@ FN TriangleHit patch_triangles(global const BvhPatch* patch, const PatchCorners*
     s.a = patch_corner(corners, places);
     s.b = patch_corner(corners, places >> 4);
     s.c = patch_corner(corners, places >> 8);
-    return present(triangle_hit(s, single_shear(ray), size, (Real)t_max, any_hit, 0),
-                   (places & ((1 << BVH_PATCH_CORNERS) - 1)) != 0);
+    TriangleHit h = triangle_hit(s, single_shear(ray), size, (Real)t_max, any_hit, 0);
+    // Where none is, three times the same corner: at no time inside, but open.
+    h.doubtful = h.doubtful & ((places & ((1 << BVH_PATCH_CORNERS) - 1)) != 0);
+    return h;
 }
 
 /// What the numbers of a patch's triangles count from.

@@ -17,9 +17,8 @@ FN uint packet_cull(global const BvhNode* node, const PacketBounds* b, RealLanes
     uint candidates = 0;
 #define NODE_PLANE(a, far) LOAD_REAL(node->bounds[b->near_row[a] ^ far] + group * LANES)
     for (int group = 0; group < LANE_GROUPS; group++) {
-        BoxOverlap box =
-            bounds_overlap(b, v3(NODE_PLANE(0, 0), NODE_PLANE(1, 0), NODE_PLANE(2, 0)),
-                           v3(NODE_PLANE(0, 1), NODE_PLANE(1, 1), NODE_PLANE(2, 1)), b->slack);
+        BoxOverlap box = bounds_overlap(b, v3(NODE_PLANE(0, 0), NODE_PLANE(1, 0), NODE_PLANE(2, 0)),
+                                        v3(NODE_PLANE(0, 1), NODE_PLANE(1, 1), NODE_PLANE(2, 1)));
         candidates |= maskBits(box.meets) << (group * LANES);
         entry[group].lanes = box.entry;
     }
@@ -84,11 +83,12 @@ FN uint few_rays(global const BvhNode* nodes, global const BvhLine* leaves, int 
 
 /// The closest hits of the active rays of a packet, or with any_hit whether each of them hits.
 FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* leaves, int root,
-                             PacketRay ray, Real t_max, Int excluded, Mask active, int any_hit) {
+                             PacketRay ray, TreeSizes sizes, Real t_max, Int excluded, Mask active,
+                             int any_hit) {
     PacketHit hit;
     hit.rank = any_hit ? t_max : rank_of_end(t_max);
     hit.t = t_max, hit.b1 = R(0.), hit.b2 = R(0.), hit.primitive = (Int)NO_PRIMITIVE;
-    PacketBounds bounds = packet_bounds(ray, active);
+    PacketBounds bounds = packet_bounds(ray, active, sizes);
     PacketLanes lanes = packet_lanes(ray);
     int stack[BVH_STACK];
     uint stack_bits[BVH_STACK];
@@ -113,7 +113,7 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* 
             RealLanes entry[LANE_GROUPS];
             uint candidates =
                 bounds.coherent ? packet_cull(node, &bounds, entry) : present_children(node, entry);
-            Real limit = hit.rank * R(HIT_WIDENING);
+            Real limit = any_hit ? hit.rank : hit.rank * R(HIT_WIDENING);
             float next_entry = 0.f;
             // The nearest child is next; the others wait in no particular order.
             for (; candidates; candidates &= candidates - 1) {

@@ -10,12 +10,16 @@ typedef struct {
     int near_row[3];
     int axis[3]; // x, y, z after renaming, if one_axis
     float near_origin[3], far_origin[3], near_inverse[3], far_inverse[3];
-    float slack[3];    // of the distance, where a ray is parallel to the axis: see ray_slab
-    float steepest[3]; // the largest inverse
+    float near_margin[3], far_margin[3]; // of the distances: see ray_slab
 } PacketBounds;
 
-FN PacketBounds packet_bounds(PacketRay r, Mask active) {
+// Of coordinates of origins: twice the margin of a ray's own slabs. What those meet no packet
+// leaves out, so that any hit does not depend on the packet either.
+#define PACKET_MARGIN 4.76837158203125e-7 // 2^-21
+
+FN PacketBounds packet_bounds(PacketRay r, Mask active, TreeSizes sizes) {
     PacketBounds b;
+    float before = sizes.side * BOX_MARGIN, beyond = sizes.extent * BOX_BEYOND;
     b.coherent = 1;
     uint all = maskBits(active);
 #define BOUND_AXIS(a, axis)                                                                        \
@@ -30,10 +34,13 @@ FN PacketBounds packet_bounds(PacketRay r, Mask active) {
         b.near_row[a] = 2 * a + down;                                                              \
         b.near_inverse[a] = down ? high : low;                                                     \
         b.far_inverse[a] = (down ? low : high) * (float)BOX_WIDENING;                              \
-        b.steepest[a] = down ? -low : high;                                                        \
         b.near_origin[a] = down ? first : last;                                                    \
         b.far_origin[a] = down ? last : first;                                                     \
-        b.slack[a] = low <= -PARALLEL_INVERSE || high >= PARALLEL_INVERSE ? PARALLEL_MARGIN : 0.f; \
+        float steepest = down ? -low : high;                                                       \
+        float parallel = steepest >= PARALLEL_INVERSE ? PARALLEL_MARGIN : 0.f;                     \
+        float rounding = (-first > last ? -first : last) * (float)PACKET_MARGIN;                   \
+        b.near_margin[a] = parallel + (before + rounding) * steepest;                              \
+        b.far_margin[a] = parallel + (beyond + rounding) * steepest;                               \
     }
     BOUND_AXIS(0, x)
     BOUND_AXIS(1, y)
@@ -49,12 +56,12 @@ FN PacketBounds packet_bounds(PacketRay r, Mask active) {
 
 /// Boxes, given by the planes that a coherent packet meets first and last, that some of its rays
 /// may meet, and where the first ray may enter them: no ray's way through a box begins before or
-/// ends after that of the bounds. `slack`: of the distances, by axis.
-FN BoxOverlap bounds_overlap(const PacketBounds* b, vec3 near, vec3 far, const float* slack) {
+/// ends after that of the bounds.
+FN BoxOverlap bounds_overlap(const PacketBounds* b, vec3 near, vec3 far) {
 #define BOUNDS_DISTANCE(plane, side, a, margin)                                                    \
     fmaR(plane - (Real)b->side##_origin[a], (Real)b->side##_inverse[a], (Real)(margin))
-#define BOUNDS_NEAR(a, axis_) BOUNDS_DISTANCE(near.axis_, near, a, -slack[a])
-#define BOUNDS_FAR(a, axis_) BOUNDS_DISTANCE(far.axis_, far, a, slack[a])
+#define BOUNDS_NEAR(a, axis_) BOUNDS_DISTANCE(near.axis_, near, a, -b->near_margin[a])
+#define BOUNDS_FAR(a, axis_) BOUNDS_DISTANCE(far.axis_, far, a, b->far_margin[a])
     return box_overlap(BOUNDS_NEAR(0, x), BOUNDS_NEAR(1, y), BOUNDS_NEAR(2, z), BOUNDS_FAR(0, x),
                        BOUNDS_FAR(1, y), BOUNDS_FAR(2, z), (Real)INFINITY);
 }
@@ -122,9 +129,8 @@ FN Mask rays_settled(LeafRays rays, global const BvhLine* leaf, int form, uint c
     return rays.found | open;
 }
 
-/// Triangles whose boxes, larger by BOX_MARGIN, some ray of a coherent packet may meet; `size`:
-/// leaf_size.
-FN Mask triangles_near(const PacketBounds* b, vec3 p, vec3 q, vec3 r, float size) {
+/// Triangles whose boxes some ray of a coherent packet may meet.
+FN Mask triangles_near(const PacketBounds* b, vec3 p, vec3 q, vec3 r) {
     vec3 near, far;
 #define TRIANGLE_BOUNDS(axis_, a)                                                                  \
     {                                                                                              \
@@ -137,16 +143,11 @@ FN Mask triangles_near(const PacketBounds* b, vec3 p, vec3 q, vec3 r, float size
     TRIANGLE_BOUNDS(x, 0)
     TRIANGLE_BOUNDS(y, 1)
     TRIANGLE_BOUNDS(z, 2)
-    float margin = size * BOX_MARGIN;
-    float slack[3];
-    for (int a = 0; a < 3; a++)
-        slack[a] = b->slack[a] + margin * b->steepest[a];
-    return bounds_overlap(b, near, far, slack).meets;
+    return bounds_overlap(b, near, far).meets;
 }
 
 /// The triangles of a patch, or with coherent rays those that some ray may meet.
-FN uint patch_candidates(global const BvhPatch* patch, const PacketBounds* b, float size,
-                         int coherent) {
+FN uint patch_candidates(global const BvhPatch* patch, const PacketBounds* b, int coherent) {
     PatchCorners corners;
     corners.x = load_table(patch->corner[0]);
     corners.y = load_table(patch->corner[1]);
@@ -158,22 +159,21 @@ FN uint patch_candidates(global const BvhPatch* patch, const PacketBounds* b, fl
         if (coherent)
             counts = counts & triangles_near(b, patch_corner(&corners, places),
                                              patch_corner(&corners, places >> 4),
-                                             patch_corner(&corners, places >> 8), size);
+                                             patch_corner(&corners, places >> 8));
         candidates |= maskBits(counts) << (group * LANES);
     }
     return candidates;
 }
 
 /// The primitives of a leaf, or with coherent rays those that some ray may meet.
-FN uint leaf_candidates(global const BvhLeaf* leaf, const PacketBounds* b, float size,
-                        int triangles) {
+FN uint leaf_candidates(global const BvhLeaf* leaf, const PacketBounds* b, int triangles) {
     uint candidates = 0;
     for (int group = 0; group < LANE_GROUPS; group++) {
         Mask counts = LOAD_INT(leaf->primitive + group * LANES) >= 0;
         if (triangles && b->coherent)
             counts = counts & triangles_near(b, v3(LEAF_ROW(0), LEAF_ROW(1), LEAF_ROW(2)),
                                              v3(LEAF_ROW(3), LEAF_ROW(4), LEAF_ROW(5)),
-                                             v3(LEAF_ROW(6), LEAF_ROW(7), LEAF_ROW(8)), size);
+                                             v3(LEAF_ROW(6), LEAF_ROW(7), LEAF_ROW(8)));
         candidates |= maskBits(counts) << (group * LANES);
     }
     return candidates;
@@ -189,7 +189,7 @@ FN Mask packet_patch(global const BvhPatch* patch, PacketRay r, const PacketBoun
     int base = patch_base(patch);
     global const BvhLine* lines = (global const BvhLine*)patch;
     float size = leaf_size(patch->triangle);
-    uint candidates = patch_candidates(patch, bounds, size, coherent);
+    uint candidates = patch_candidates(patch, bounds, coherent);
     LeafRays rays = {lanesOf(0), lanesOf(0)};
 #define READY_CORNER(place)                                                                        \
     (coherent ? packet_corner(patch->corner, place, r, bounds) : ready[place])
@@ -200,7 +200,10 @@ FN Mask packet_patch(global const BvhPatch* patch, PacketRay r, const PacketBoun
         s.b = READY_CORNER((places >> 4) & 15);
         s.c = READY_CORNER((places >> 8) & 15);
         TriangleHit h = triangle_hit(s, r.shear, size, hit->rank, any_hit, coherent);
-        if (coherent && !someLane(h.hit | h.doubtful)) continue;
+        if (coherent && !someLane(h.hit | h.doubtful)) {
+            candidates &= ~(1u << k);
+            continue;
+        }
         if (!any_hit) h = ranked_backs(h, s, r.shear);
         rays = packet_take(rays, h, patch_number(patch, base, k), excluded, live, any_hit, hit);
     }
@@ -218,12 +221,15 @@ FN Mask packet_leaf(global const BvhLine* lines, int form, PacketRay r, const Pa
                                                excluded, live, any_hit, hit);
     global const BvhLeaf* leaf = (global const BvhLeaf*)lines;
     float size = form == geometry_triangle ? leaf_size(leaf->primitive) : 0.f;
-    uint candidates = leaf_candidates(leaf, bounds, size, form == geometry_triangle);
+    uint candidates = leaf_candidates(leaf, bounds, form == geometry_triangle);
     LeafRays rays = {lanesOf(0), lanesOf(0)};
     for (uint bits = candidates; bits; bits &= bits - 1) {
         int k = lowest_bit(bits), number = BVH_LEAF_NUMBER(leaf->primitive[k]);
         TriangleHit h = packet_primitive(leaf, form, k, r, bounds, size, hit->rank, any_hit);
-        if (bounds->coherent && !someLane(h.hit | h.doubtful)) continue;
+        if (bounds->coherent && !someLane(h.hit | h.doubtful)) {
+            candidates &= ~(1u << k);
+            continue;
+        }
         rays = packet_take(rays, h, number, excluded, live, any_hit, hit);
     }
     return rays_settled(rays, lines, form, candidates, r, excluded, any_hit, hit);

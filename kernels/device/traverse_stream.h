@@ -22,7 +22,7 @@ typedef struct {
     int next, end;     // entries that have not been taken
     PacketLanes lanes; // LANES of them made ready, from a multiple of LANES on
     int any_hit;
-    float extent; // of all triangles
+    TreeSizes sizes;
 } RayStream;
 
 #define STREAM_FIELD(s, name)                                                                      \
@@ -31,7 +31,7 @@ typedef struct {
 FN PacketRay stream_packet(const RayStream* s, int at) {
 #define STREAM_LANES(name) LOAD_REAL(STREAM_FIELD(s, name) + at)
     return packet_ray(v3(STREAM_LANES(ox), STREAM_LANES(oy), STREAM_LANES(oz)),
-                      v3(STREAM_LANES(dx), STREAM_LANES(dy), STREAM_LANES(dz)), s->extent);
+                      v3(STREAM_LANES(dx), STREAM_LANES(dy), STREAM_LANES(dz)), s->sizes);
 }
 
 /// Starts a walk with the next ray; its entry is returned.
@@ -55,8 +55,7 @@ FN void stream_answer(const RayStream* s, int entry, const RayWalk* w) {
     ((global int*)s->state)[(long)path_primitive * s->stride + entry] = hit ? w->primitive : -1;
 }
 
-/// Fetches what a walk visits next ahead of its turn, but for the primitive numbers of a BvhLeaf,
-/// which are wanted only where something is hit.
+/// Fetches what a walk visits next ahead of its turn.
 FN void stream_prefetch(global const BvhNode* nodes, global const BvhLine* leaves, int code) {
     global const char* p =
         code >= 0 ? (global const char*)(nodes + code) : (global const char*)leaf_at(leaves, code);
@@ -71,6 +70,7 @@ FN void stream_prefetch(global const BvhNode* nodes, global const BvhLine* leave
     if (code >= 0) return;
     PREFETCH(p + 448);
     PREFETCH(p + 512);
+    PREFETCH(p + 576);
 }
 
 /// Walks under way, and lists of those that stand at a node and those that stand at a leaf.
@@ -112,10 +112,10 @@ FN StreamCounts stream_send(StreamWalks* s, StreamCounts counts, RayStream* rays
 /// decides from what the first has stored, so that a branch guessed wrongly costs little.
 FN void traverse_stream(global const BvhNode* nodes, global const BvhLine* leaves, int root,
                         global float* state, long stride, int begin, int end, int any_hit,
-                        float extent) {
+                        TreeSizes sizes) {
     RayStream rays;
     rays.state = state, rays.stride = stride;
-    rays.next = begin, rays.end = end, rays.any_hit = any_hit, rays.extent = extent;
+    rays.next = begin, rays.end = end, rays.any_hit = any_hit, rays.sizes = sizes;
     StreamWalks s;
     StreamCounts at = {0, 0};
     for (int i = 0; i < STREAM_WALKS && rays.next < end; i++) {

@@ -73,6 +73,54 @@ FN Intersection intersect_disk(vec3 to_centre, vec3 direction, vec3 edge_u, vec3
 #define PARALLEL_INVERSE 1.2676506002282294e30f  // 2^100
 #define PARALLEL_MARGIN 1.152921504606846976e18f // 2^60
 
+// A box counts where the ray as the triangle test has it, slopes rounded, is inside of it ahead of
+// the origin. With u = 2^-24:
+//
+// Where rays leave a box nothing but the box test's own rounding counts. A triangle is hit where
+// that ray passes through it, ahead of its origin, beyond what rounding could change, or, where it
+// is settled, through one whose corners are moved by 2^-45 of their distance (intersect_edges.h,
+// intersect_triangle.h): so it passes through the box, or beside it by 2^-45 of distances that are
+// below 2^8 times the size of the scene. Far planes count as farther by 2^-36 of that size
+// (BOX_BEYOND).
+//
+// Where rays enter it counts besides that what is behind the closest hit is left out: the box must
+// begin before the distance t that is found in it, or which of two hits wins would depend on the
+// order of the walk. What rounding does to t is more than what it does to boxes. With corners at
+// (x_i, y_i, z_i) from the ray's origin, the longest side e of the triangle's box, and barycentrics
+// b_i: the edge functions are within 3 u of those of rounded corners, so the ray meets the triangle
+// of those. Of the triangle as it is, the point q with the same b_i is beside the ray by a mean of
+// the corners' errors, in x by 2 u (sum b_i |sheared x_i| + |slope| sum b_i |z_i|). The b_i and
+// their sum with z_i make t off by 15 u of that of sum b_i |z_i|, and the slope is off by u. The
+// sheared x_i of a triangle around the ray are below 2 e, sum b_i |z_i| is below |q_z| + e: along x
+// the ray is within 18 u |slope q_z| + 22 u e of q at t, and |slope q_z| is how far it has come
+// along x. It is not different along y and z, and where edges or sides have been settled the errors
+// are smaller. Near planes count as nearer by 32 u (BOX_MARGIN) of the longest side of most
+// triangles; the boxes of others, which are much larger than most, are so much larger themselves on
+// all sides, and so are those of spheres and disks. What is left are 18 u of the distance
+// (HIT_WIDENING).
+
+/// Of all triangles of a tree: the largest side of a box around them, and the longest side, along
+/// an axis, of one whose own box is not larger than itself.
+typedef struct {
+    Scalar extent, side;
+} TreeSizes;
+
+FN TreeSizes tree_sizes(RenderParams params) {
+    TreeSizes s;
+    s.extent = params.extent, s.side = params.side;
+    return s;
+}
+
+#define BOX_BEYOND 1.4551915228366852e-11f // 2^-36
+
+/// For any hit, which does not depend on the order of the walk: rays that end at a light need not
+/// look at its box.
+FN TreeSizes blocking_sizes(RenderParams params) {
+    TreeSizes s = tree_sizes(params);
+    s.side = 0;
+    return s;
+}
+
 /// One axis of a ray made ready for planes: the distance to the plane at p is p * inverse + offset.
 typedef struct {
     Real inverse;                 // of the direction
@@ -83,40 +131,24 @@ typedef struct {
 /// the ray touches: with u = 2^-24 the inverse is off by u, the product origin * inverse by u of
 /// itself and an offset by another u, for which the margin is 4 u; what is left are relative errors
 /// of the distance, u of the inverse and u of the last rounding, at each end (BOX_WIDENING).
-FN RaySlab ray_slab(Real origin, Real direction, Real largest) {
+FN RaySlab ray_slab(Real origin, Real direction, Real largest, TreeSizes sizes) {
     RaySlab s;
     Mask slanted = absR(direction) > largest * R(5.421010862427522e-20); // 2^-64
     s.inverse = sel(slanted, R(1.) / direction, copysignR((Real)PARALLEL_INVERSE, direction));
     Real product = origin * s.inverse;
     Real margin = absR(product) * R(2.384185791015625e-7) + // 2^-22
                   sel(slanted, R(0.), (Real)PARALLEL_MARGIN);
-    s.near_offset = -product - margin;
-    s.far_offset = margin - product;
+    Real before = (Real)(sizes.side * BOX_MARGIN), beyond = (Real)(sizes.extent * BOX_BEYOND);
+    s.near_offset = -product - (margin + before * absR(s.inverse));
+    s.far_offset = (margin + beyond * absR(s.inverse)) - product;
     return s;
 }
 
-// Whatever a ray hits lies in all boxes above it at the distance t that is found, or which of two
-// hits wins would depend on the order of the walk, and a mesh would leak. What rounding does to
-// triangles is more than what it does to boxes. With u = 2^-24, corners at (x_i, y_i, z_i) from the
-// ray's origin, the longest side e of the triangle's box, and barycentrics b_i:
-//
-// The edge functions are within 3 u of those of rounded corners (intersect_edges.h), so the ray
-// meets the triangle of those. Of the triangle as it is, the point q with the same b_i is beside
-// the ray by a mean of the corners' errors, in x by 2 u (sum b_i |sheared x_i| + |slope| sum b_i
-// |z_i|). The b_i and their sum with z_i make t off by 15 u of that of sum b_i |z_i|, and the slope
-// is off by u. The sheared x_i of a triangle around the ray are below 2 e, sum b_i |z_i| is below
-// |q_z| + e: along x the ray is within 18 u |slope q_z| + 22 u e of q at t, and |slope q_z| is how
-// far it has come along x. It is not different along y and z, and where edges or sides have been
-// settled the errors are smaller.
-//
-// Boxes of triangles are larger by 32 u e on all sides therefore (BOX_MARGIN), and distances may be
-// off by 18 u, besides those of the box test: of both ends and of the product itself 5 u, or, where
-// a plane is subtracted from the origin first, 7 u.
+/// Of far ends: the relative errors of both ends and of the product itself, 5 u, or, where a plane
+/// is subtracted from the origin first, 7 u, and 2 u at each end of the slopes that triangles see.
+#define BOX_WIDENING 1.00000095367431640625 // 1 + 16 u
 
-/// Of far ends, for both: twice 18 u and 7 u.
-#define BOX_WIDENING 1.000003814697265625 // 1 + 64 u
-
-/// A box counts up to this much behind the closest hit: 18 u and 7 u.
+/// A box counts up to this much behind the closest hit: 18 u and 11 u.
 #define HIT_WIDENING 1.000003814697265625 // 1 + 64 u
 
 typedef struct {

@@ -6,11 +6,11 @@
 // of itself besides, so by u (|px| + |slope pz| + |x|) <= 2 u (|x| + |pz|). Let A be the largest
 // |x| and |y|, Z the largest |z| of the corners. An edge function, cx by - cy bx, is off by 4 A
 // times that, and by 3 u of itself in its own roundings: 8 u A (A + Z) + 6 u A^2 in all, below
-// edge_margin. Beyond it the signs stand. Within it they are taken from the corners, sheared with
-// an error of 2^-45 (A + Z) instead: one for all triangles that share a corner, from which the
-// signs are exact. So the mesh that all of these tests are of is a closed one, whose corners are
-// moved by 2^-45 of their distance: nothing leaks out of a closed mesh of whatever triangles if the
-// ray starts farther than that from it.
+// edge_margin. Beyond it the signs stand. Within it they are taken from the corners,
+// sheared with an error of 2^-45 (A + Z) instead: one for all triangles that share a corner, from
+// which the signs are exact. So the mesh that all of these tests are of is a closed one, whose
+// corners are moved by 2^-45 of their distance: nothing leaks out of a closed mesh of whatever
+// triangles if the ray starts farther than that from it.
 //
 // Which triangles are in doubt a bound tells for all triangles of a leaf, none of which has a side
 // (along an axis) longer than `size`: the ray passes inside of one, or beside it by e = 2 u (A + Z)
@@ -33,8 +33,8 @@ typedef struct {
 /// A triangle as a ray sees it: edge functions, whose signs say on which side of each edge the ray
 /// passes.
 typedef struct {
-    Mask inside; // beyond doubt
-    Mask open;   // perhaps inside: rounding leaves it open
+    Mask inside; // with the open
+    Mask open;   // rounding leaves it open
     Real u, v, w, determinant;
 } TriangleEdges;
 
@@ -89,8 +89,8 @@ FN TriangleEdges triangle_edges(Corners s, Real margin) {
     e.determinant = e.u + e.v + e.w;
     Real low = minR(e.u, minR(e.v, e.w)), high = maxR(e.u, maxR(e.v, e.w));
     Real within = maxR(low, -high); // of edges all of one sign the least
-    e.inside = within > margin;
-    e.open = (within >= -margin) & !e.inside;
+    e.inside = within >= -margin;
+    e.open = absR(within) <= margin;
     return e;
 }
 

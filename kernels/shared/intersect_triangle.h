@@ -93,7 +93,7 @@ typedef struct {
 /// Where the ray meets the plane of a triangle that it is inside of; t in ]0, t_max].
 FN TriangleHit triangle_distance(TriangleEdges e, Corners s, RayShear ray, Real t_max) {
     // Barycentrics first: the product of three lengths would need more exponents than there are.
-    Real scale = R(1.) / sel(e.inside, e.determinant, R(1.));
+    Real scale = R(1.) / e.determinant; // of no account where nothing is hit
     Real b0 = e.u * scale;
     TriangleHit h;
     h.b1 = e.v * scale;
@@ -103,7 +103,7 @@ FN TriangleHit triangle_distance(TriangleEdges e, Corners s, RayShear ray, Real 
     h.volume = h.t * absR(e.determinant);
     h.hit = e.inside & (h.t <= t_max) & (h.t > R(0.));
     h.doubtful =
-        e.open | (e.inside & straddles_origin(s) & (absR(h.t * e.determinant) <= ray.doubt));
+        e.inside & (e.open | (straddles_origin(s) & (absR(h.t * e.determinant) <= ray.doubt)));
     return h;
 }
 
@@ -115,9 +115,9 @@ FN TriangleHit triangle_blocks(TriangleEdges e, Corners s, RayShear ray, Real t_
     TriangleHit h;
     h.t = h.rank = h.b1 = h.b2 = R(0.);
     h.determinant = e.determinant;
-    h.volume = copysignR(R(1.), e.determinant) * (e.u * az + e.v * bz + e.w * cz);
+    h.volume = flipSign(e.u * az + e.v * bz + e.w * cz, e.determinant);
     h.hit = e.inside & (h.volume <= t_max * absR(e.determinant)) & (h.volume > R(0.));
-    h.doubtful = e.open | (e.inside & straddles_origin(s) & (absR(h.volume) <= ray.doubt));
+    h.doubtful = e.inside & (e.open | (straddles_origin(s) & (absR(h.volume) <= ray.doubt)));
     return h;
 }
 

@@ -164,6 +164,8 @@ FN Real copysignR(Real a, Real b) {
     return asReal((asUint(a) & 0x7fffffffu) | (asUint(b) & 0x80000000u));
 }
 FN Mask signsDiffer(Real a, Real b) { return (asInt(a) ^ asInt(b)) < 0; }
+/// a, or where b has the negative sign -a.
+FN Real flipSign(Real a, Real b) { return asReal(asUint(a) ^ (asUint(b) & 0x80000000u)); }
 /// The largest power of two that is not above x; 0 where that is denormal; x >= 0 and finite.
 FN Real powerOfTwoBelow(Real x) { return asReal(asUint(x) & 0x7f800000u); }
 #define HALF_ULP 5.9604644775390625e-8f // of 1
@@ -204,6 +206,7 @@ FN Real copysignR(Real a, Real b) { return std::copysign(a, b); }
 FN Mask finiteR(Real x) { return std::isfinite(x); }
 FN Real scale_by_power_of_two(Real x, Int n) { return std::ldexp(x, n); }
 FN Mask signsDiffer(Real a, Real b) { return std::signbit(a) != std::signbit(b); }
+FN Real flipSign(Real a, Real b) { return std::signbit(b) ? -a : a; }
 FN Real powerOfTwoBelow(Real x) {
     return std::isnormal(x) ? std::ldexp(Real(1), std::ilogb(x)) : Real(0);
 }

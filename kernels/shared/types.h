@@ -107,7 +107,7 @@ LAYOUT(FilterBin, 8);
 #define BVH_WIDTH 16
 #define BVH_STACK 512 // children that may wait while a ray walks the tree; the builder keeps to it
 
-// Boxes are larger than what they hold by this much of the longest side of each primitive's own box: see intersect.h.
+// Boxes are larger than what they hold, or count as larger, by this much of a primitive's longest side: see intersect.h.
 #define BOX_MARGIN 1.9073486328125e-6f // 2^-19
 
 // Children's boxes as rows of 16: low x, high x, low y, high y, low z, high z. An absent child's box is empty
@@ -125,10 +125,10 @@ typedef struct {
 } BvhLine;
 LAYOUT(BvhLine, 64);
 
-// Up to 16 primitives of one kind, rows ax ay az bx by bz cx cy cz. Absent ones are all zero (nothing of no size is ever hit)
-// with a negative primitive; of others that is their number but for one bit: of leaves of triangles, bit BVH_SIZE_BIT of word k
-// is bit k of the upper half of a float, the longest side of any of their boxes, rounded up; of spheres and disks it is
-// PRIMITIVE_FLIPPED. A sphere has its radius in row bx.
+// Up to 16 primitives of one kind, rows ax ay az bx by bz cx cy cz. Absent spheres and disks are all zero
+// with primitive -1, triangles not a number (nothing of either is ever hit). A sphere has its radius in row bx. One
+// bit of the primitives is not part of their numbers: of leaves of triangles, bit BVH_SIZE_BIT of word k is bit k of the upper
+// half of a float, the longest side of any of their boxes, rounded up; of spheres and disks it is PRIMITIVE_FLIPPED.
 typedef struct {
     float rows[9][BVH_WIDTH];
     int primitive[BVH_WIDTH];
@@ -195,13 +195,13 @@ LAYOUT(CameraRecord, 116);
     X(int, segment_stride)                    /* their entries in the path state, with padding */   \
     X(int, aov_channels)                                                                           \
     X(int, camera_root) X(int, root)          /* BVH roots for camera rays and for all others */   \
-    X(float, extent)                          /* largest side of a box around all triangles */
+    X(float, extent) X(float, side)           /* TreeSizes of all trees */
 typedef struct {
     CameraRecord camera;
     RENDER_FIELDS(FIELD_DECLARE)
     int aov_offset[AOV_LIMIT]; // first film channel of each AOV kind, -1: not asked for
 } RenderParams;
-LAYOUT(RenderParams, 116 + 27 * 4 + AOV_LIMIT * 4);
+LAYOUT(RenderParams, 116 + 28 * 4 + AOV_LIMIT * 4);
 
 // A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
 // Which of them a slot of the pool is, device/wave.h says.

@@ -65,7 +65,8 @@ FN ProbeOut probe_box_overlap(ProbeIn i) {
     return put1(out1(mask_word(b.meets)), 1, b.entry);
 }
 FN ProbeOut probe_ray_slab(ProbeIn i) {
-    RaySlab s = ray_slab(i.w[0], i.w[1], absR(i.w[2]));
+    TreeSizes nothing = {0, 0};
+    RaySlab s = ray_slab(i.w[0], i.w[1], absR(i.w[2]), nothing);
     return put2(out1(s.inverse), 1, v2(s.near_offset, s.far_offset));
 }
 FN ProbeOut probe_leave_surface(ProbeIn i) {

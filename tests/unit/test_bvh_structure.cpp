@@ -28,6 +28,14 @@ struct Bounds {
     }
 };
 
+/// A place of a leaf that holds nothing: not a number where a column could be a triangle, else zero.
+bool is_absent(const Leaf& leaf, std::size_t place) {
+    const std::array<float, 9>& column = leaf.column[place];
+    if (leaf.kind == geometry_triangle && leaf.lines * sizeof(BvhLine) == sizeof(BvhLeaf))
+        return std::all_of(column.begin(), column.end(), [](float x) { return std::isnan(x); });
+    return column == std::array<float, 9>{};
+}
+
 /// What the tree says of itself, gathered by going through all of it.
 struct Survey {
     std::vector<int> seen; ///< how often each primitive stands in a leaf
@@ -83,7 +91,7 @@ private:
         for (std::size_t k = 0; k < BVH_WIDTH; k++) {
             const std::array<float, 9>& column = leaf.column[k];
             if (leaf.primitive[k] < 0) {
-                survey_.wrong_columns += column != std::array<float, 9>{};
+                survey_.wrong_columns += !is_absent(leaf, k);
                 continue;
             }
             survey_.gaps += k > 0 && leaf.primitive[k - 1] < 0;
@@ -207,6 +215,30 @@ TEST_CASE("Triangles without area are in no tree, however thin ones are", "[bvh]
         CHECK(!can_be_hit(triangle(x, y, z)));
     CHECK(can_be_hit(triangle(a, b, d)));
     CHECK(can_be_hit(sphere(a, 0)));
+}
+
+TEST_CASE("Boxes are those of the triangles, but for ones much larger than most", "[bvh]") {
+    Primitives small = grid(50, 1);
+    Bvh of_small;
+    bvh_append(of_small, small);
+    float longest = 0;
+    for (const PrimitiveRecord& p : small)
+        longest = std::max(longest, longest_side(p));
+    CHECK(of_small.side == longest);
+
+    Primitives mixed = small;
+    mixed.push_back(triangle({-1e5f, 0, 0}, {1e5f, 0, 0}, {0, 0, 2e5f}));
+    Bvh of_mixed;
+    bvh_append(of_mixed, mixed);
+    CHECK(of_mixed.side >= longest);
+    CHECK(of_mixed.side < 1024 * longest);
+    auto room = [&](const PrimitiveRecord& p) {
+        Reference r = make_reference(p, 0, of_mixed.side);
+        return r.box.high[1] - std::max({p.ay, p.by, p.cy});
+    };
+    CHECK(room(small.front()) == 0);
+    CHECK(room(mixed.back()) >= 2e5f * BOX_MARGIN);
+    CHECK(room(sphere({0, 0, 0}, 1)) >= 1 + 2 * BOX_MARGIN);
 }
 
 TEST_CASE("A tree over a subset leaves the other primitives and the trees before it alone",

