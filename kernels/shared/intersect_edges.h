@@ -6,11 +6,11 @@
 // of itself besides, so by u (|px| + |slope pz| + |x|) <= 2 u (|x| + |pz|). Let A be the largest
 // |x| and |y|, Z the largest |z| of the corners. An edge function, cx by - cy bx, is off by 4 A
 // times that, and by 3 u of itself in its own roundings: 8 u A (A + Z) + 6 u A^2 in all, below
-// edge_margin. Beyond it the signs stand. Within it they are taken from the corners,
-// sheared with an error of 2^-45 (A + Z) instead: one for all triangles that share a corner, from
-// which the signs are exact. So the mesh that all of these tests are of is a closed one, whose
-// corners are moved by 2^-45 of their distance: nothing leaks out of a closed mesh of whatever
-// triangles if the ray starts farther than that from it.
+// edge_margin. Beyond it the signs stand. Within it they are taken from the corners, sheared with
+// an error of 2^-45 (A + Z) instead: one for all triangles that share a corner, from which the
+// signs are exact. So the mesh that all of these tests are of is a closed one, whose corners are
+// moved by 2^-45 of their distance: nothing leaks out of a closed mesh of whatever triangles if the
+// ray starts farther than that from it.
 //
 // Which triangles are in doubt a bound tells for all triangles of a leaf, none of which has a side
 // (along an axis) longer than `size`: the ray passes inside of one, or beside it by e = 2 u (A + Z)
@@ -122,13 +122,13 @@ FN TriangleEdges exact_edges(Corners v, RayShear ray) {
     Real edge[3];
     for (int k = 0; k < 3; k++) {
         int i = (k + 2) % 3, j = (k + 1) % 3;
-        edge[k] = signed_difference_of_products(x[i], y[j], y[i], x[j]) * size * size;
+        edge[k] = signed_difference_of_products(x[i], y[j], y[i], x[j]);
     }
+    Mask left = (edge[0] >= R(0.)) & (edge[1] >= R(0.)) & (edge[2] >= R(0.));
+    Mask right = (edge[0] <= R(0.)) & (edge[1] <= R(0.)) & (edge[2] <= R(0.));
     TriangleEdges e;
-    e.u = edge[0], e.v = edge[1], e.w = edge[2];
+    e.u = edge[0] * size * size, e.v = edge[1] * size * size, e.w = edge[2] * size * size;
     e.determinant = e.u + e.v + e.w;
-    Mask left = (e.u >= R(0.)) & (e.v >= R(0.)) & (e.w >= R(0.));
-    Mask right = (e.u <= R(0.)) & (e.v <= R(0.)) & (e.w <= R(0.));
     e.inside = (left | right) & (e.determinant != R(0.));
     e.open = lanesOf(0);
     return e;
