@@ -36,6 +36,17 @@ void check_range(const LightRow& row, const std::string& file) {
                                      file, std::numeric_limits<double>::max() / 3));
 }
 
+/// Of lights all too dim for the numbers of the image: the unit is 2^19 to 2^20 times the
+/// brightest.
+void note_dim_lights(const Scene& scene, double unit, std::vector<std::string>& notes) {
+    bool half = scene.film.component_format == ComponentFormat::float16;
+    double least = half ? 0x1p-24 : 0x1p-149;
+    if (unit < 1.0 && unit * 0x1p-19 <= least)
+        notes.push_back(fmt::format("{}: all lights are dimmer than the least number of an image "
+                                    "of {} ({:.2g}), which stays black",
+                                    scene.file, half ? "float16" : "float32", least));
+}
+
 std::vector<LightBounds> bounds_of(const std::vector<LightRow>& rows, double total) {
     // Only ratios of powers count. In units of a power of two near their sum, which changes no bit,
     // they are single-precision numbers however bright the lights are.
@@ -54,6 +65,7 @@ std::vector<LightBounds> bounds_of(const std::vector<LightRow>& rows, double tot
 void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
     std::vector<LightRow> rows = light_rows(scene, out, out.notes);
     out.frame.radiance_unit = radiance_unit(rows);
+    note_dim_lights(scene, out.frame.radiance_unit, out.notes);
     double total = 0.0;
     for (LightRow& row : rows) {
         row.radiance /= out.frame.radiance_unit;

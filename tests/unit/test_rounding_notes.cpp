@@ -106,6 +106,24 @@ TEST_CASE("Lights: an emitter of no area is named, one that does not shine is no
     CHECK(notes_of(room_with(half, Rgb(3))).empty());
 }
 
+TEST_CASE("Lights: all too dim for the image are told, one that is not keeps the others unnamed") {
+    Mesh lamp = quad({1, 1, 1}, {1, 0, 0}, {0, 1, 0});
+    for (double dim : {1e-50, 1e-300, 5e-324}) {
+        Scene scene = room_with(lamp, Rgb(dim));
+        std::vector<std::string> notes = notes_of(scene);
+        REQUIRE(notes.size() == 1);
+        CHECK_THAT(notes[0],
+                   Catch::Contains("dimmer than the least number of an image of float32"));
+        scene.shapes[1].radiance = Rgb(1);
+        CHECK(notes_of(scene).empty());
+    }
+    Scene scene = room_with(lamp, Rgb(1e-30));
+    CHECK(notes_of(scene).empty());
+    scene.film.component_format = ComponentFormat::float16;
+    CHECK_THAT(notes_of(scene).at(0), Catch::Contains("of float16 (6e-08)"));
+    CHECK(notes_of(room_with(lamp, Rgb(0))).empty());
+}
+
 TEST_CASE("Lights: a tiny triangle's row has its edges and its area, wherever it is") {
     for (double size : {1e-5, 1e-7, 1e-10}) {
         Mesh mesh = quad({1, 2, -3}, {size, 0, 0}, {0, size, 0});
