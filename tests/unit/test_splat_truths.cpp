@@ -91,7 +91,8 @@ TEST_CASE("Splat truths: means, variances and numbers of samples are those of th
         Image image = host_image(scene);
         for (std::size_t i = 0; i < image.pixel_count(); i++)
             for (std::size_t color = 0; color < 3; color++) {
-                double x = double(i % width) + .5, y = double(i / width) + .5;
+                auto column = int(i) % width, row = int(i) / width;
+                double x = column + .5, y = row + .5;
                 Pixel p = by_hand(scene.film.filter, all, x, y, color);
                 std::string name(1, "RGB"[color]);
                 CAPTURE(int(kind), i, name);
