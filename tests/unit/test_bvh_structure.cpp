@@ -28,7 +28,8 @@ struct Bounds {
     }
 };
 
-/// A place of a leaf that holds nothing: not a number where a column could be a triangle, else zero.
+/// A place of a leaf that holds nothing: not a number where a column could be a triangle, else
+/// zero.
 bool is_absent(const Leaf& leaf, std::size_t place) {
     const std::array<float, 9>& column = leaf.column[place];
     if (leaf.kind == geometry_triangle && leaf.lines * sizeof(BvhLine) == sizeof(BvhLeaf))
