@@ -75,8 +75,8 @@ PlainHit plain_walk(const BvhNode* nodes, const BvhLine* leaves, const Primitive
     for (int top = 1; top > 0 && !(any_hit && hit.primitive >= 0);) {
         int code = stack[--top];
         if (code >= 0) {
-            top = plain_children(AT(const BvhNode, nodes, code), r,
-                                 any_hit ? hit.rank : hit.rank * R(HIT_WIDENING), stack, top);
+            top = plain_children(AT(const BvhNode, nodes, code), r, BOX_LIMIT(hit.rank, any_hit),
+                                 stack, top);
             continue;
         }
         plain_leaf(IN_BUFFER(const BvhLine, leaves, ~code >> 2), ~code & 3, [&](int number) {

@@ -82,7 +82,7 @@ FN int smallest_lane_key(Mask mask, Real value) {
 /// answer.
 FN int walk_node(RayWalk* w, WalkStack* stack, global const BvhNode* node, int any_hit) {
     int next = WALK_ENDS;
-    float next_entry = 0.f, limit = any_hit ? w->rank : w->rank * (float)HIT_WIDENING;
+    float next_entry = 0.f, limit = BOX_LIMIT(w->rank, any_hit);
     for (int group = 0; group < LANE_GROUPS; group++) {
         BoxOverlap box = node_overlap(node, group, &w->ray, limit);
         uint bits = maskBits(box.meets);

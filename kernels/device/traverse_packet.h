@@ -113,7 +113,7 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* 
             RealLanes entry[LANE_GROUPS];
             uint candidates =
                 bounds.coherent ? packet_cull(node, &bounds, entry) : present_children(node, entry);
-            Real limit = any_hit ? hit.rank : hit.rank * R(HIT_WIDENING);
+            Real limit = BOX_LIMIT(hit.rank, any_hit);
             float next_entry = 0.f;
             // The nearest child is next; the others wait in no particular order.
             for (; candidates; candidates &= candidates - 1) {

@@ -153,13 +153,16 @@ FN RaySlab ray_slab(Real origin, Real direction, Real largest, TreeSizes sizes) 
 /// A box counts up to this much behind the closest hit: 18 u and 11 u.
 #define HIT_WIDENING 1.000003814697265625 // 1 + 64 u
 
+// The t_max of boxes, of the rank of what has been found; any hit leaves no box out for another's.
+#define BOX_LIMIT(rank, any_hit) ((any_hit) ? (rank) : (rank) * (float)HIT_WIDENING)
+
 typedef struct {
     Mask meets;
     Real entry; // distance, not below 0
 } BoxOverlap;
 
-/// Does the ray meet a box before t_max (widened by HIT_WIDENING already)? near and far are
-/// distances to its planes, per axis.
+/// Does the ray meet a box before t_max (BOX_LIMIT)? near and far are distances to its planes, per
+/// axis.
 FN BoxOverlap box_overlap(Real near_x, Real near_y, Real near_z, Real far_x, Real far_y, Real far_z,
                           Real t_max) {
     BoxOverlap b;
