@@ -35,13 +35,13 @@ template<std::size_t N>
 std::array<int, N> parse_integers(std::string_view option, std::string_view text, char separator,
                                   std::string_view form) {
     std::array<int, N> values{};
-    std::string_view rest = text;
+    const char *at = text.data(), *stop = at + text.size();
     for (std::size_t i = 0; i < N; i++) {
-        auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), values[i]);
-        bool last = i + 1 == N, at_end = end == rest.data() + rest.size();
-        if (error != std::errc{} || last != at_end || (!last && *end != separator))
+        auto [end, error] = std::from_chars(at, stop, values[i]);
+        bool last = i + 1 == N;
+        if (error != std::errc{} || last != (end == stop) || (!last && *end != separator))
             throw InputError(fmt::format("{} '{}': expected {}", option, text, form));
-        rest.remove_prefix(static_cast<std::size_t>(end - rest.data()) + (last ? 0 : 1));
+        at = last ? end : end + 1;
     }
     return values;
 }

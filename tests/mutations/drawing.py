@@ -70,13 +70,13 @@ def all_mutants(root):
     unique = {}
     for m in found:
         unique.setdefault((m.file, m.span, m.changed), m)
-    known = equivalent_keys()
-    return [m for m in unique.values() if m.key() not in known]
+    return list(unique.values())
 
 
 def draw(mutants, seed, count, patterns=()):
     """`count` of them, of files that match a pattern: a file (by the root of its faults), a kind in it, and one of that kind."""
     generator = random.Random(seed)
+    known = equivalent_keys()
     by_file = {}
     for m in mutants:
         if patterns and not any(fnmatch.fnmatch(m.file, p) for p in patterns):
@@ -89,7 +89,9 @@ def draw(mutants, seed, count, patterns=()):
         kinds = by_file[generator.choices(names, weights)[0]]
         kind = generator.choice(sorted(kinds))
         m = kinds[kind].pop(generator.randrange(len(kinds[kind])))
-        drawn.append(m)
+        # After the draw, so that a line more there does not make another draw of it.
+        if m.key() not in known:
+            drawn.append(m)
         by_file[m.file] = {k: v for k, v in kinds.items() if v}
         by_file = {name: kinds for name, kinds in by_file.items() if kinds}
     # Kernels first: a program of theirs need not be compiled again for a fault of the host's.

@@ -83,3 +83,23 @@ TEST_CASE("AOV truths: the colour is that of the side that is seen", "[truths]")
         }
     }
 }
+
+TEST_CASE("AOV truths: views show normals, from 0 to 1 for -1 to 1, and depths", "[truths]") {
+    Scene scene = exhibition(exhibits());
+    std::vector<FirstHit> hits = first_hits(scene);
+    scene.integrator.aovs.clear();
+    scene.integrator.kind = IntegratorKind::normals;
+    Image normals = host_image(scene);
+    scene.integrator.kind = IntegratorKind::depth;
+    Image depths = host_image(scene);
+    REQUIRE(hits.size() == normals.pixel_count());
+    for (std::size_t i = 0; i < hits.size(); i++) {
+        const FirstHit& h = hits[i];
+        INFO("pixel " << h.x << " " << h.y << " shape " << h.shape);
+        glm::dvec3 shown = h.hit ? 0.5 * (h.ns + 1.0) : glm::dvec3(0);
+        check_near({value_at(normals, "R", i), value_at(normals, "G", i), value_at(normals, "B", i)},
+                   shown, 1e-6);
+        for (const char* channel : {"R", "G", "B"})
+            REQUIRE(value_at(depths, channel, i) == Approx(h.depth).epsilon(1e-6));
+    }
+}

@@ -133,8 +133,12 @@ TEST_CASE("Camera truths: a crop has the pixels of the full film", "[truths]") {
                        "<integer name=\"crop_offset_y\" value=\"3\"/>"
                        "<integer name=\"crop_width\" value=\"21\"/>"
                        "<integer name=\"crop_height\" value=\"18\"/>";
-    std::vector<FirstHit> hits = first_hits(
-        scene_of_text(every_aov + wall + looking_down(5, fov(40, "x"), film_of(40, 24, crop))));
+    Scene scene =
+        scene_of_text(every_aov + wall + looking_down(5, fov(40, "x"), film_of(40, 24, crop)));
+    Image image = host_image(scene);
+    CHECK(std::array{image.full_width, image.full_height, image.offset_x, image.offset_y,
+                     image.width, image.height} == std::array{40, 24, 7, 3, 21, 18});
+    std::vector<FirstHit> hits = first_hits(scene);
     CHECK(hits.size() == 21 * 18);
     CHECK(hits.front().x == 7);
     CHECK(hits.front().y == 3);

@@ -1,4 +1,5 @@
 // The light tree: every light in one leaf, bounds that hold, and a choice that misses no light.
+#include "host/oracle/device_functions.h"
 #include "host/render/light_bounds.h"
 #include "tests/support/many_lights_scene.h"
 
@@ -67,6 +68,29 @@ TEST_CASE(
                 auto s = emitter_sample(light, p, random.square<F32>());
                 if (max_component(s.weight) > 0 && !(pmf[row] > 0 && hint[row] > 0))
                     FAIL("light " << row << " of " << count << " shines and is never picked");
+            }
+        }
+    }
+}
+
+TEST_CASE("Light tree: what is picked has its probability, and the hint that a ray will be told") {
+    Random random(97);
+    for (int count : {2, 8, 300}) {
+        DeviceScene scene = make_device_scene(many_lights_scene(count, true));
+        for (int repeat = 0; repeat < 50; repeat++) {
+            f32::vec3 p = in_frame(scene, random.point<F64>(9)), n = random.direction<F32>();
+            std::vector<double> pmf = light_probabilities(scene, p, n, false),
+                                hint = light_probabilities(scene, p, n, true);
+            for (int draw = 0; draw < 20; draw++) {
+                PickedLight pick = pick_light(scene.light_tree, {p.x, p.y, p.z}, {n.x, n.y, n.z},
+                                              random.bits(), random.bits());
+                if (!(pick.pmf > 0)) continue; // a group that turned out dark
+                auto row = std::size_t(pick.row);
+                CAPTURE(count, row);
+                CHECK(pick.pmf == Approx(pmf[row]).epsilon(1e-4));
+                CHECK(pick.pmf_hint == Approx(hint[row]).epsilon(1e-4));
+                CHECK(light_pmf(scene.light_tree, {p.x, p.y, p.z}, pick.row) ==
+                      Approx(hint[row]).epsilon(1e-4));
             }
         }
     }

@@ -174,3 +174,26 @@ TEST_CASE("Picture truths: variances and moments of depth are in the scene's uni
         CHECK(mixed == 4);
     }
 }
+
+TEST_CASE("Picture truths: in a closed ball with a lamp every path has all of its rays",
+          "[truths]") {
+    const std::string ball =
+        "<shape type=\"sphere\"><boolean name=\"flip_normals\" value=\"true\"/><float "
+        "name=\"radius\" value=\"9\"/></shape><emitter type=\"point\"><point name=\"position\" "
+        "x=\"1\" y=\"2\" z=\"0\"/></emitter>";
+    for (int max_depth : {1, 2, 4}) {
+        CAPTURE(max_depth);
+        Scene scene = scene_of_text(integrator("path", false, max_depth) + ball +
+                                    looking_down(5, fov, small_film()));
+        scene.sampler.samples_per_pixel = 5;
+        Progress quiet(Progress::Mode::quiet);
+        RenderReport report =
+            render_on_host(scene, {}, Precision::single_precision, quiet).report;
+        const auto paths = std::uint64_t(6 * 4 * 5), vertices = paths * std::uint64_t(max_depth - 1);
+        CHECK(report.paths == paths);
+        CHECK(report.camera_rays == paths);
+        CHECK(report.shadow_rays == vertices);
+        // Where the light of the first vertex is all there is, no ray goes on.
+        CHECK(report.bounce_rays == (max_depth > 2 ? vertices : 0));
+    }
+}

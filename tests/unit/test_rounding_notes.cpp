@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace parhelion;
@@ -60,6 +61,17 @@ TEST_CASE("Rounding notes: every kind of shape too small for its place is named,
     CHECK(notes_of(every_kind_scene()).empty());
 }
 
+TEST_CASE("Rounding notes: a shape may be too far along any axis") {
+    for (int axis = 0; axis < 3; axis++) {
+        CAPTURE(axis);
+        glm::dvec3 place(1e-3);
+        place[axis] = 3;
+        CHECK(notes_of(room_with(Sphere{place, 1e-6})).size() == 1);
+        CHECK(notes_of(room_with(Disk{place, {1e-6, 0, 0}, {0, 1e-6, 0}})).size() == 1);
+    }
+    CHECK(notes_of(room_with(Sphere{glm::dvec3(1e-3), 1e-6})).empty());
+}
+
 TEST_CASE("Rounding notes: next to the camera nothing is rounded, but what is too small beside the "
           "scene is lost") {
     for (double size : {1e-6, 1e-12}) {
@@ -81,6 +93,8 @@ TEST_CASE("Rounding notes: most faces must be too small, not some") {
     mesh.positions.insert(mesh.positions.end(), small.positions.begin(), small.positions.end());
     for (const glm::uvec3& t : small.triangles)
         mesh.triangles.push_back(t + base);
+    CHECK(notes_of(room_with(mesh)).empty());
+    std::reverse(mesh.triangles.begin(), mesh.triangles.end()); // whichever come first
     CHECK(notes_of(room_with(mesh)).empty());
     // Of a mesh of many faces a part is looked at.
     Mesh fine;

@@ -182,6 +182,20 @@ TEST_CASE("Scene frame: the centre is the point of the scene next to the camera,
     CHECK(scene_frame(scene_of({unused}, {})).scale == 1024);
 }
 
+TEST_CASE("Scene frame: rays of a camera far away begin a scene's size before the box's nearest "
+          "corner") {
+    for (const glm::dvec3& d : {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1),
+                                glm::dvec3(0.48, -0.6, 0.64), glm::dvec3(-0.6, 0.64, -0.48)})
+        for (double distance : {60.0, 300.0, 1e6}) {
+            CAPTURE(d.x, d.y, d.z, distance);
+            Scene scene = scene_of({ball({1, 2, 3}, 0.5)}, glm::dvec3(1, 2, 3) - distance * d);
+            scene.camera.to_world[2] = glm::dvec4(d, 0);
+            double nearest = distance - 0.5 * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z));
+            double expected = nearest > 64 ? nearest - 1 : 0;
+            CHECK(scene_frame(scene).start == Approx(expected).epsilon(1e-12));
+        }
+}
+
 TEST_CASE("Scene frame: a grain beside a planet keeps its shape") {
     Scene scene =
         scene_of({ball({0, -1e7, 0}, 1e7), ball({2e-6, 1e-6, 3e-6}, 1e-6)}, {1e-5, 4e-6, 2e-5});

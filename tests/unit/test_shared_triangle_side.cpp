@@ -82,6 +82,14 @@ bool hits(const Ray& r, const Triangle& t) {
     return hit;
 }
 
+/// Along one axis.
+void one_corner_away(Random& random, Triangle& t, double by) {
+    f32::vec3* corners[] = {&t.a, &t.b, &t.c};
+    f32::vec3& corner = *corners[random.bits() % 3];
+    float* axes[] = {&corner.x, &corner.y, &corner.z};
+    *axes[random.bits() % 3] += float(random.sign() * by);
+}
+
 f64::vec3 mix(const f64::vec3& a, const f64::vec3& b, double s) {
     return f64::add3(f64::scale3(a, 1 - s), f64::scale3(b, s));
 }
@@ -209,6 +217,7 @@ TEST_CASE("From within ulps of a triangle's plane, its side is the exact one", "
                    vec_as<F32>(f64::add3(centre, along)),
                    vec_as<F32>(f64::add3(centre, n % 5 ? random.point<F64>(size) : along))};
         if (n % 5 == 0) t.c = f32::add3(t.c, random.point<F32>(size * random.log_between(1e-6, 1)));
+        if (n % 5 == 1) one_corner_away(random, t, size * random.log_between(1e2, 1e6));
         f64::vec3 on = mix(wide(t.a), mix(wide(t.b), wide(t.c), random.unit()), random.unit());
         f32::vec3 o = vec_as<F32>(f64::add3(on, random.point<F64>(size * 1e-7 * (n % 4))));
         Ray r = make_ray(o, random.direction<F32>(), 4 * size);
