@@ -105,6 +105,26 @@ TEST_CASE("A light of no power is no light, and takes no feature", "[nothing]") 
     }
 }
 
+TEST_CASE("Paths have the features that their length leaves a use for", "[nothing]") {
+    Scene scene = small(two_of_every());
+    struct Length {
+        int max_depth;
+        bool emission, next_event, scattering;
+    };
+    for (Length l : {Length{0, false, false, false},
+                     {1, true, false, false},
+                     {2, true, true, true},
+                     {3, true, true, true},
+                     {-1, true, true, true}}) {
+        CAPTURE(l.max_depth);
+        scene.integrator.max_depth = l.max_depth;
+        std::uint64_t features = make_device_scene(scene).features;
+        CHECK(((features & feature_bit(feature_emission)) != 0) == l.emission);
+        CHECK(((features & feature_bit(feature_next_event)) != 0) == l.next_event);
+        CHECK(((features & feature_bit(feature_scattering)) != 0) == l.scattering);
+    }
+}
+
 TEST_CASE("Features are those of the records", "[nothing]") {
     Scene scene = small(two_of_every());
     auto has = [&](Feature f) { return (make_device_scene(scene).features & feature_bit(f)) != 0; };

@@ -1,7 +1,9 @@
 // What the user is told of shapes that single precision cannot tell from their place, and of
 // emitters that give no light.
 #include "host/render/device_scene.h"
+#include "host/stress/light_tables.h"
 #include "tests/support/every_kind_scene.h"
+#include "tests/support/shared_maths.h"
 
 #include <catch2/catch.hpp>
 
@@ -154,4 +156,39 @@ TEST_CASE("Lights: a tiny triangle's row has its edges and its area, wherever it
         }
         CHECK(area == Approx(unit * unit).epsilon(1e-5));
     }
+}
+
+TEST_CASE("Lights: points of a tiny triangle know how far they may be from the one that is met") {
+    // Rays to the light end before it only if its points' errors reach to the plane that the
+    // primitive has, whose corners are rounded each by itself.
+    Random random(98);
+    double farthest = 0;
+    int beyond = 0;
+    for (int n = 0; n < 300; n++) {
+        const double size = random.log_between(1e-7, 1e-6);
+        auto u = random.direction<F64>(), v = random.direction<F64>(), away = random.direction<F64>();
+        glm::dvec3 place(1, 2, -3);
+        Mesh mesh = quad(place, {size * u.x, size * u.y, size * u.z},
+                         {size * v.x, size * v.y, size * v.z});
+        DeviceScene scene = make_device_scene(room_with(mesh, Rgb(1)));
+        for (const PrimitiveRecord& p : scene.primitives) {
+            if (p.light < 0) continue;
+            glm::dvec3 a(p.ax, p.ay, p.az), b(p.bx, p.by, p.bz), c(p.cx, p.cy, p.cz);
+            glm::dvec3 normal = glm::cross(b - a, c - a);
+            const LightRecord& row = scene.lights[std::size_t(p.light)];
+            if (glm::length(normal) == 0 || row.kind != emitter_area_tiny_triangle) continue;
+            normal = glm::normalize(normal);
+            glm::dvec3 near = a + 0.01 * glm::length(a) * glm::dvec3(away.x, away.y, away.z);
+            auto s = f32::emitter_area_tiny_triangle_sample(
+                stress::lanes_of(row), {float(near.x), float(near.y), float(near.z)},
+                random.square<F32>());
+            double off = std::fabs(glm::dot(normal, glm::dvec3(s.q.x, s.q.y, s.q.z) - a)),
+                   told = glm::dot(glm::abs(normal),
+                                   glm::dvec3(s.q_error.x, s.q_error.y, s.q_error.z));
+            farthest = std::max(farthest, off / told);
+            beyond += off > told;
+        }
+    }
+    CHECK(beyond == 0);
+    CHECK(farthest > 0.05); // some are rounded apart
 }

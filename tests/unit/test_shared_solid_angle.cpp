@@ -99,6 +99,17 @@ TEST_CASE("Solid angle: directions in single precision are those of double", "[e
     CHECK(error.value() < 2e-3); // of the triangle's width; the worst are needles
 }
 
+TEST_CASE("Solid angle: from next to any side, directions have length one", "[emitter]") {
+    Random random(99);
+    Worst unit;
+    for (int n = 0; n < 50000; n++) {
+        auto triangle = seen<F32>(triangle_beside(random, random.log_between(1e-4, 0.3)));
+        f32::vec3 w = spherical_triangle_uniform(triangle, random.square<F32>());
+        unit.add(std::fabs(f64::length3(wide(w)) - 1));
+    }
+    CHECK(unit.value() < 5e-4);
+}
+
 TEST_CASE("Solid angle: at the ends of the unit interval directions are finite", "[emitter]") {
     Random random(94);
     for (int n = 0; n < 20000; n++) {

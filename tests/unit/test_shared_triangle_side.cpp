@@ -210,17 +210,24 @@ TEST_CASE("From within ulps of a triangle's plane, its side is the exact one", "
     for (int n = 0; n < 200000; n++) {
         // Also needles, and far from the coordinates' origin. (Below 1e-18 a determinant is
         // denormal.)
-        double size = random.log_between(1e-15, 1e11), offset = n % 3 ? 0 : 1e4;
+        double far = n % 5 == 1 ? random.log_between(1e2, 1e6) : 1; // of one corner
+        // Products of three short sides of one with a far corner leave the range first.
+        double size = random.log_between(far > 1 ? 1e-12 : 1e-15, 1e11 / far),
+               offset = n % 3 ? 0 : 1e4;
         f64::vec3 centre = f64::scale3(random.direction<F64>(), offset * size),
                   along = f64::scale3(random.direction<F64>(), size);
         Triangle t{vec_as<F32>(f64::add3(centre, random.point<F64>(size))),
                    vec_as<F32>(f64::add3(centre, along)),
                    vec_as<F32>(f64::add3(centre, n % 5 ? random.point<F64>(size) : along))};
         if (n % 5 == 0) t.c = f32::add3(t.c, random.point<F32>(size * random.log_between(1e-6, 1)));
-        if (n % 5 == 1) one_corner_away(random, t, size * random.log_between(1e2, 1e6));
-        f64::vec3 on = mix(wide(t.a), mix(wide(t.b), wide(t.c), random.unit()), random.unit());
+        if (n % 5 == 1) one_corner_away(random, t, size * far);
+        auto part = [&] { // of one that reaches far, beside its other corners too
+            double s = n % 5 == 1 ? random.log_between(1e-7, 1) : random.unit();
+            return n % 2 ? s : 1 - s;
+        };
+        f64::vec3 on = mix(wide(t.a), mix(wide(t.b), wide(t.c), part()), part());
         f32::vec3 o = vec_as<F32>(f64::add3(on, random.point<F64>(size * 1e-7 * (n % 4))));
-        Ray r = make_ray(o, random.direction<F32>(), 4 * size);
+        Ray r = make_ray(o, random.direction<F32>(), 4 * size * far);
         f32::Corners s = f32::sheared(f32::seen_from(renamed(t, r), r.shear.origin), r.shear);
         f32::TriangleEdges e = f32::settled_edges(renamed(t, r), s, r.shear);
         if (!e.inside) continue;
