@@ -97,8 +97,9 @@ TEST_CASE("AOV truths: views show normals, from 0 to 1 for -1 to 1, and depths",
         const FirstHit& h = hits[i];
         INFO("pixel " << h.x << " " << h.y << " shape " << h.shape);
         glm::dvec3 shown = h.hit ? 0.5 * (h.ns + 1.0) : glm::dvec3(0);
-        check_near({value_at(normals, "R", i), value_at(normals, "G", i), value_at(normals, "B", i)},
-                   shown, 1e-6);
+        check_near(
+            {value_at(normals, "R", i), value_at(normals, "G", i), value_at(normals, "B", i)},
+            shown, 1e-6);
         for (const char* channel : {"R", "G", "B"})
             REQUIRE(value_at(depths, channel, i) == Approx(h.depth).epsilon(1e-6));
     }

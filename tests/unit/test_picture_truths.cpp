@@ -187,9 +187,9 @@ TEST_CASE("Picture truths: in a closed ball with a lamp every path has all of it
                                     looking_down(5, fov, small_film()));
         scene.sampler.samples_per_pixel = 5;
         Progress quiet(Progress::Mode::quiet);
-        RenderReport report =
-            render_on_host(scene, {}, Precision::single_precision, quiet).report;
-        const auto paths = std::uint64_t(6 * 4 * 5), vertices = paths * std::uint64_t(max_depth - 1);
+        RenderReport report = render_on_host(scene, {}, Precision::single_precision, quiet).report;
+        const auto paths = std::uint64_t(6 * 4 * 5),
+                   vertices = paths * std::uint64_t(max_depth - 1);
         CHECK(report.paths == paths);
         CHECK(report.camera_rays == paths);
         CHECK(report.shadow_rays == vertices);

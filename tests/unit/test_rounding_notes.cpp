@@ -166,10 +166,11 @@ TEST_CASE("Lights: points of a tiny triangle know how far they may be from the o
     int beyond = 0;
     for (int n = 0; n < 300; n++) {
         const double size = random.log_between(1e-7, 1e-6);
-        auto u = random.direction<F64>(), v = random.direction<F64>(), away = random.direction<F64>();
+        auto u = random.direction<F64>(), v = random.direction<F64>(),
+             away = random.direction<F64>();
         glm::dvec3 place(1, 2, -3);
-        Mesh mesh = quad(place, {size * u.x, size * u.y, size * u.z},
-                         {size * v.x, size * v.y, size * v.z});
+        Mesh mesh =
+            quad(place, {size * u.x, size * u.y, size * u.z}, {size * v.x, size * v.y, size * v.z});
         DeviceScene scene = make_device_scene(room_with(mesh, Rgb(1)));
         for (const PrimitiveRecord& p : scene.primitives) {
             if (p.light < 0) continue;
