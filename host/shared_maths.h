@@ -2,6 +2,7 @@
 // in double.
 #pragma once
 
+#include "host/feature_set.h"
 #include "kernels/shared/features.h"
 #include "kernels/shared/types.h"
 
@@ -17,7 +18,7 @@
 #pragma GCC diagnostic ignored "-Wunused-function"
 #endif
 
-#define FEATURE_MASK (~std::uint64_t{0})
+#define FEATURES (FeatureSet::all())
 
 namespace parhelion::f32 {
 #define PARHELION_REAL float

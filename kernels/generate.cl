@@ -46,8 +46,9 @@ kernel void generate(KERNEL_PARAMETERS) {
         Mask valid = (x >= params.window_x) & (x < params.window_x + params.window_width) &
                      (y >= params.window_y) & (y < params.window_y + params.window_height);
         Int pixel = y * params.pixel_stride + x;
-        Random4 random = sampler_draw(asUint(pixel), asUint(s.sample), (Uint)(uint)dimension_camera,
-                                      (Uint)(uint)params.seed);
+        SampleNumber number = sample_number(asUint(pixel), asUint(s.sample),
+                                            (Uint)(uint)params.seed, params.replicate_bits);
+        Random4 random = sampler_draw(number, (Uint)(uint)draw_camera);
         FilterSample fx = filter_sample(filter_table, params.filter_bins, uniform01(random.x));
         FilterSample fy = filter_sample(filter_table, params.filter_bins, uniform01(random.y));
         vec2 film_position = v2(toReal(x) + .5f + fx.offset, toReal(y) + .5f + fy.offset);

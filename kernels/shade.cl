@@ -175,13 +175,12 @@ kernel void shade(KERNEL_PARAMETERS) {
 
         Int excluded = sel(primitive_kind(primitive) == geometry_sphere, (Int)(-1), v.primitive);
         vec3 clearance = surface_clearance(surface.error, surface.ng);
-        Uint bounce = (Uint)(uint)(dimension_first_bounce + depth * dimensions_per_bounce);
-        Uint seed = (Uint)(uint)params.seed;
+        SampleNumber number = sample_number(asUint(v.pixel), asUint(v.sample),
+                                            (Uint)(uint)params.seed, params.replicate_bits);
 
         // ---- next event estimation: one shadow ray with its finished contribution
         if (HAS(next_event)) {
-            Random4 r =
-                sampler_draw(asUint(v.pixel), asUint(v.sample), bounce + dimension_emitter, seed);
+            Random4 r = sampler_draw(number, bounce_set(depth, draw_emitter));
             // Seen from where rays to this side begin, as by a ray of the BSDF's choice that meets
             // the light: next to an emitter even the clearance changes its solid angle.
             vec3 from = leave_surface(surface.p, clearance, surface.ng, neg3(v.direction));
@@ -233,9 +232,10 @@ kernel void shade(KERNEL_PARAMETERS) {
         }
 
         // ---- go on in a direction of the BSDF's choice
-        if (HAS(scattering)) {
-            Random4 r =
-                sampler_draw(asUint(v.pixel), asUint(v.sample), bounce + dimension_bsdf, seed);
+        // Where rays meet no light and cover nothing, the last one is of no use.
+        int useful = HAS(emission) || HAS(straight_through) || depth + 2 < params.max_depth;
+        if (HAS(scattering) && useful) {
+            Random4 r = sampler_draw(number, bounce_set(depth, draw_bsdf));
             BsdfSample b = bsdf_sample(material, wo, uniform2(r.x, r.y), uniform01(r.z));
             vec3 throughput = mul3(v.throughput, b.weight);
             if (HAS(consistent_normals)) {

@@ -36,8 +36,8 @@ void lay_out(const Ray& r, float* at, std::size_t stride) {
 OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::size_t primitives)
     : device_(device) {
     int lanes = device.device.lanes();
-    ProgramOptions options{
-        lanes, feature_bit(feature_shape_triangle) | traversal_features(primitives), false};
+    ProgramOptions options{lanes, {feature_shape_triangle}, false};
+    options.features.set(feature_ray_streams, traced_in_streams(primitives));
     Program program(device.context, device.device, device.cache,
                     program_source({"intersect.cl", "shadow.cl"}, options));
     intersect_ = program.kernel("intersect");

@@ -42,6 +42,8 @@ Device describe(const cl::Device& handle, const std::string& platform, int index
     d.keeps_programs = pocl;
     // The guard of the header with all of OpenCL's functions; lane.h declares those in use.
     if (pocl) d.quick_options = "-D_OPENCL_H_ -DDECLARE_BUILTINS";
+    if (handle.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT)
+        d.rounding_option = "-cl-fp32-correctly-rounded-divide-sqrt";
     d.one_thread = platform == "Oclgrind";
     d.fp64 = handle.getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_fp64") != std::string::npos;
     return d;

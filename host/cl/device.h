@@ -23,6 +23,9 @@ struct Device {
     /// The driver keeps compiled programs on disk itself; asking it for a binary would make it
     /// compile every kernel once more (PoCL: for work-groups of any size).
     bool keeps_programs = false;
+    /// Compiler option that makes division and square root right to the last bit, where the device
+    /// can: OpenCL allows 2.5 and 3 ulp without.
+    std::string rounding_option;
     /// Compiler options that only save time; what does not compile with them is compiled without.
     std::string quick_options;
     /// The driver takes calls from the program's first thread alone.

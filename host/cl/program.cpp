@@ -14,8 +14,8 @@ namespace parhelion {
 namespace {
 
 std::string option_text(const ProgramOptions& options) {
-    return fmt::format("-cl-std={} -DLANES={} -DFEATURE_MASK=0x{:x}ul{}{}",
-                       options.checked ? "CL2.0" : "CL1.2", options.lanes, options.features,
+    return fmt::format("-cl-std={} -DLANES={} {}{}{}", options.checked ? "CL2.0" : "CL1.2",
+                       options.lanes, options.features.definitions(),
                        options.portable ? " -DPORTABLE" : "", options.checked ? " -DCHECKED" : "");
 }
 
@@ -32,12 +32,17 @@ std::string first_errors(const std::string& log) {
     return errors.empty() ? log : errors;
 }
 
+/// Of a source, as this device takes them.
+std::string options_on(const Device& device, const ProgramSource& source) {
+    return fmt::format("{} {}", source.options, device.rounding_option);
+}
+
 } // namespace
 
 std::string ProgramSource::key(const Device& device) const {
     return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n", device.platform, device.name,
-                       device.driver_version, device.opencl_version, options, device.quick_options,
-                       use) +
+                       device.driver_version, device.opencl_version, options_on(device, *this),
+                       device.quick_options, use) +
            text;
 }
 
@@ -91,7 +96,8 @@ bool Program::build_quickly(const cl::Context& context, const Device& device,
     if (device.quick_options.empty()) return false;
     try {
         program_ = cl::Program(context, source.text);
-        program_.build({device.handle}, (source.options + " " + device.quick_options).c_str());
+        program_.build({device.handle},
+                       (options_on(device, source) + " " + device.quick_options).c_str());
         return true;
     } catch (const cl::Error&) {
         return false; // what is wrong with the source shows again without the options
@@ -103,7 +109,7 @@ void Program::build_source(const cl::Context& context, const Device& device,
     if (build_quickly(context, device, source)) return;
     program_ = cl::Program(context, source.text);
     try {
-        program_.build({device.handle}, source.options.c_str());
+        program_.build({device.handle}, options_on(device, source).c_str());
     } catch (const cl::Error& e) {
         std::string log = first_errors(program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle));
         throw DeviceError(fmt::format("kernel file {} does not compile on {}: {}{}\n{}",

@@ -27,10 +27,11 @@ struct CompileCommand {
 
 constexpr const char* no_feature = "none";
 
-std::uint64_t wanted_features(const CompileCommand& c) {
+FeatureSet wanted_features(const CompileCommand& c) {
     if (c.image.scene_file.empty() == c.features.empty())
         throw InputError("compile: needs a scene or --features, and not both");
-    if (!c.features.empty()) return c.features.front() == no_feature ? 0 : feature_mask(c.features);
+    if (!c.features.empty())
+        return c.features.front() == no_feature ? FeatureSet() : FeatureSet::of(c.features);
     Scene scene = load_scene(c.image.scene_file,
                              {parse_definitions(c.image.definitions), c.image.allow_outside});
     apply_overrides(c.image, scene);
@@ -54,7 +55,7 @@ int run_compile(const CompileCommand& c) {
     StageOptions options{.portable = c.image.options.portable,
                          .features = wanted_features(c),
                          .work_group_size = c.image.options.split.work_group_size};
-    progress.finish(fmt::format("{}", fmt::join(feature_names(options.features), " ")));
+    progress.finish(fmt::format("{}", fmt::join(options.features.names(), " ")));
     RenderDevice& device = open_to_the_end(choose_device(c.image.device));
     options.lanes = c.image.options.lanes > 0 ? c.image.options.lanes : device.device.lanes();
     progress.start("compiling kernels");
@@ -78,7 +79,7 @@ int run_compile(const CompileCommand& c) {
 /// The command line of run_compile for one program.
 std::vector<std::string> own_command(const Device& device, ProgramGroup group,
                                      const StageOptions& options) {
-    std::vector<std::string> features = feature_names(options.features);
+    std::vector<std::string> features = options.features.names();
     if (features.empty()) features = {no_feature};
     constexpr const char* this_program = "/proc/self/exe";
     std::vector<std::string> command{this_program,

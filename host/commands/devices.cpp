@@ -37,6 +37,7 @@ nlohmann::json to_json(const Tested& t) {
             {"float_width", d.float_width},
             {"lanes", d.lanes()},
             {"fp64", d.fp64},
+            {"correctly_rounded", !d.rounding_option.empty()},
             {"largest_work_group", largest_work_group(d)},
             {"self_test", t.failure.empty() ? "passed" : t.failure}};
 }

@@ -58,8 +58,9 @@ nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
               {"sah_cost", flat.bvh_statistics.sah_cost},
               {"leaf_fill", flat.bvh_statistics.leaf_fill}}},
             {"device_scene_bytes", flat.bytes()},
-            {"kernel_features", feature_names(flat.features)},
-            {"skipped_features", feature_names(~flat.features)},
+            {"kernel_features", flat.features.on().names()},
+            {"skipped_features", (FeatureSet::all() - flat.features.on()).names()},
+            {"feature_reasons", flat.features.reasons()},
             {"notes", notes}};
 }
 

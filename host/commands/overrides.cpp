@@ -127,6 +127,7 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (command.sampler) scene.sampler.pattern = named("--sampler", *command.sampler, patterns);
     if (command.filter_method)
         film.filter_method = named("--filter-by", *command.filter_method, filter_methods);
+    if (command.replicates) scene.sampler.replicates = *command.replicates;
     if (command.samples) scene.sampler.samples_per_pixel = *command.samples;
     if (command.max_depth) scene.integrator.max_depth = *command.max_depth;
     if (command.rr_depth) scene.integrator.rr_depth = *command.rr_depth;

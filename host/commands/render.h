@@ -19,7 +19,7 @@ struct RenderCommand {
     std::vector<std::string> aovs;
     std::optional<std::string> integrator, size, crop, sampler, filter_method, precision,
         shading_normals;
-    std::optional<int> samples, max_depth, rr_depth;
+    std::optional<int> samples, replicates, max_depth, rr_depth;
     std::optional<std::uint32_t> seed;
     std::optional<double> exposure;
     std::optional<std::string> pixel; ///< X,Y of the sample to trace

@@ -16,6 +16,9 @@ inline constexpr Domain sample_domain = whole_number(0, largest_int - 1);
 inline constexpr Domain exposure_domain = between(-128, 128).in("stops");
 /// More than that is more than any machine has a use for, and threads have a memory of their own.
 inline constexpr Domain threads_domain = whole_number(0, 1024);
+/// Powers of two: samples take turns by the last bits of their number.
+inline constexpr Domain replicates_domain{
+    .lowest = 1, .highest = 8, .whole = true, .only = {1, 2, 4, 8}, .only_count = 4};
 
 // Buffers of the largest pool have a few GB; their elements are counted in int.
 inline constexpr Domain pool_paths_domain = whole_number(BLOCK_PIXELS, 1 << 26);

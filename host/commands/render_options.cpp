@@ -66,7 +66,12 @@ std::vector<Option> light_options(RenderCommand& c) {
          "Mitsuba 3)"},
         {"!--no-energy-compensation", &c.energy_compensation, energy_compensation_help},
         {"--sampler", &c.sampler,
-         "sobol (a pattern over the samples of a pixel, the default) or independent"},
+         "faure (a pattern over the samples of a pixel, the default) or independent"},
+        {"--replicates",
+         &c.replicates,
+         "Patterns, each scrambled by itself, that the samples of a pixel take turns in: their "
+         "means differ by the error that each has (1)",
+         {.domain = replicates_domain}},
         {"--filter-by", &c.filter_method,
          "splatting (a sample counts for all pixels that the filter reaches, the default) or "
          "sampling (for one pixel alone: pixels are independent)"},

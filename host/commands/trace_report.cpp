@@ -154,6 +154,7 @@ json trace_json(const Scene& scene, const DeviceScene& flat, const SampleTrace& 
         {"pixel", {trace.x, trace.y}},
         {"sample", trace.sample},
         {"seed", scene.sampler.seed},
+        {"replicates", scene.sampler.replicates},
         {"sampler", sample_pattern_names[static_cast<std::size_t>(scene.sampler.pattern)]},
         {"on_film", trace.on_film},
         {"vertices", vertices},

@@ -15,7 +15,7 @@ struct Kernels : WorkItem {
 #undef PARHELION_REAL
 };
 
-Kernels kernels_with(Feature feature) { return Kernels{{feature_bit(feature)}}; }
+Kernels kernels_with(Feature feature) { return Kernels{{FeatureSet{feature}}}; }
 
 Kernels::vec3 vector(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 

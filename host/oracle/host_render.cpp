@@ -36,7 +36,7 @@ std::pair<int, int> sum_counts(const std::vector<int>& counts) {
 /// All bounces of one wave, then its samples to the film.
 template<class Real>
 void trace_wave(const HostLaunch<Real>& launch, int segments) {
-    bool next_event = launch.features & feature_bit(feature_next_event);
+    bool next_event = launch.features.has(feature_next_event);
     run_stage(Stage::generate, launch, 0, segments);
     for (int depth = 0; depth < launch.params.max_depth; depth++) {
         run_stage(Stage::intersect, launch, depth, segments);

@@ -67,9 +67,9 @@ struct Kernels : WorkItem {
         to = weight;
         return weight;
     }
-    Random4 note_draw(Uint pixel, Uint sample, Uint dimension, Uint seed) {
-        Random4 r = sampler_draw(pixel, sample, dimension, seed);
-        notes.draws.push_back({dimension, {r.x, r.y, r.z, r.w}});
+    Random4 note_draw(SampleNumber number, Uint set) {
+        Random4 r = sampler_draw(number, set);
+        notes.draws.push_back({set, {r.x, r.y, r.z, r.w}});
         return r;
     }
 

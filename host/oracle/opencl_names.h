@@ -6,7 +6,7 @@
 
 // No #pragma once: it is text.
 
-#define FEATURE_MASK features
+#define FEATURES features
 #define kernel
 #define global
 #define restrict __restrict

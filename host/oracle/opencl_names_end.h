@@ -1,6 +1,6 @@
 // The end of what opencl_names.h began.
 #pragma GCC diagnostic pop
-#undef FEATURE_MASK
+#undef FEATURES
 #undef kernel
 #undef global
 #undef restrict

@@ -84,7 +84,7 @@ void read_material(const DeviceScene& scene, int number, TraceVertex& v) {
     for (int axis = 0; axis < 3; axis++)
         v.wo[axis] = -dot(v.direction, frame[axis]);
     const PrimitiveRecord& p = scene.primitives[static_cast<std::size_t>(number)];
-    bool back = v.wo[2] < 0.f && (scene.features & feature_bit(feature_back_materials));
+    bool back = v.wo[2] < 0.f && (scene.features.has(feature_back_materials));
     v.material = back ? p.material_back : p.material_front;
 }
 
@@ -163,7 +163,7 @@ SampleTrace trace_sample(const Scene& scene, const DeviceScene& flat, int x, int
     WaveMemory<float> memory(sizes);
     // Streams store whether a shadow ray was blocked; their answers are those of packets.
     HostLaunch<float> launch{scene_arrays(flat), render_params(scene, flat, sizes, aovs),
-                             flat.features | feature_bit(feature_ray_streams),
+                             flat.features.on() | FeatureSet{feature_ray_streams},
                              WaveParams{0, 1, sample, 1}, memory};
     OnePath path(launch);
     path.run(Stage::generate, 0);

@@ -39,7 +39,7 @@ template<class Real>
 struct HostLaunch {
     SceneArrays scene;
     RenderParams params;
-    std::uint64_t features; ///< of the kernels, a mask over enum Feature
+    FeatureSet features; ///< of the kernels
     WaveParams wave;
     WaveMemory<Real>& memory;
 };

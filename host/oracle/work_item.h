@@ -1,6 +1,8 @@
 // A work-item on the host: what OpenCL gives the kernels, as members.
 #pragma once
 
+#include "host/feature_set.h"
+
 #include <sys/types.h> // uint, ulong
 
 #include <algorithm>
@@ -25,7 +27,7 @@ struct BufferRange {
 };
 
 struct WorkItem {
-    std::uint64_t features = 0; ///< what HAS() asks, a mask over enum Feature
+    FeatureSet features; ///< what HAS() asks
     int number = 0;
     std::span<const BufferRange> buffers{}; ///< that may be touched; empty: whatever it is given
     const BufferRange* last = nullptr;      ///< that was

@@ -186,10 +186,10 @@ static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
     add_light_table(scene, choice, out);
     out.features = scene_features(scene, out);
     add_energy_tables(scene, out);
-    if (!out.energy_tables.empty()) out.features |= feature_bit(feature_energy_compensation);
-    if (out.features & feature_bit(feature_filter_splatting))
+    decide_energy_compensation(out);
+    if (out.features.has(feature_filter_splatting))
         out.filter_values = make_filter_values(scene.film.filter);
-    if (out.features & feature_bit(feature_filter_sampling))
+    if (out.features.has(feature_filter_sampling))
         out.filter_table = make_filter_table(scene.film.filter);
     return out;
 }

@@ -3,13 +3,12 @@
 
 #include "host/bvh/bvh.h"
 #include "host/large_vector.h"
+#include "host/render/feature_decisions.h"
 #include "host/render/scene_frame.h"
 #include "host/scene/scene.h"
 #include "kernels/device/buffers.h"
-#include "kernels/shared/features.h"
 #include "kernels/shared/types.h"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -41,7 +40,7 @@ struct DeviceScene {
     int camera_root = 0; ///< differs from root where emitters are hidden from the camera
     int root = 0;
     int constant_light = -1;        ///< row of the light table
-    std::uint64_t features = 0;     ///< what the kernels must have, a mask over enum Feature
+    FeatureDecisions features;      ///< what the kernels must have, and why
     std::vector<std::string> notes; ///< what single precision makes of the scene that the user
                                     ///< should be told, one line each; beside Scene::notes
 
@@ -57,12 +56,5 @@ std::size_t primitive_count(const Shape& shape);
 
 /// 1 / |cross(u, v)| as records keep it: 0 where the plane of u and v is none that floats know.
 float inverse_normal_length(const glm::dvec3& u, const glm::dvec3& v);
-
-constexpr std::uint64_t feature_bit(Feature f) { return std::uint64_t{1} << f; }
-
-/// The names of the features in a mask, in the order of the lists in kernels/shared/features.h.
-std::vector<std::string> feature_names(std::uint64_t mask);
-/// And back. Throws InputError for a name that is none.
-std::uint64_t feature_mask(const std::vector<std::string>& names);
 
 } // namespace parhelion

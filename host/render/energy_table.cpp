@@ -143,9 +143,8 @@ bool wants_energy_compensation(const Bsdf& bsdf) {
 }
 
 void add_energy_tables(const Scene& scene, DeviceScene& out) {
-    constexpr std::uint64_t lit = feature_bit(feature_next_event) | feature_bit(feature_scattering);
-    if ((out.features & lit) == 0) return;
-    int azimuths = (out.features & feature_bit(feature_anisotropy)) ? ENERGY_AZIMUTHS : 1;
+    if (!out.features.has(feature_next_event) && !out.features.has(feature_scattering)) return;
+    int azimuths = out.features.has(feature_anisotropy) ? ENERGY_AZIMUTHS : 1;
     std::map<std::tuple<int, int, float, float, float, float>, int> known;
     for (std::size_t i = 0; i < scene.materials.size(); i++) {
         if (!wants_energy_compensation(scene.materials[i].bsdf)) continue;

@@ -101,24 +101,26 @@ void check_film_memory(const Scene& scene, const WorkSizes& sizes, const Device&
 
 } // namespace
 
-std::uint64_t render_features(const DeviceScene& scene, const RenderOptions& options) {
-    return options.all_features ? scene.features | neutral_features() : scene.features;
+FeatureSet render_features(const DeviceScene& scene, const RenderOptions& options) {
+    const FeatureSet& wanted = scene.features.on();
+    return options.all_features ? wanted | neutral_features() : wanted;
 }
 
 RenderReport start_report(const Scene& scene, const DeviceScene& flat) {
-    constexpr std::uint64_t every = (std::uint64_t{1} << feature_count) - 1;
     RenderReport report;
     report.scene_file = scene.file;
     report.width = scene.film.crop_width, report.height = scene.film.crop_height;
     report.samples_per_pixel = scene.sampler.samples_per_pixel;
     report.seed = scene.sampler.seed;
     report.sampler = sample_pattern_names[static_cast<std::size_t>(scene.sampler.pattern)];
+    report.replicates = scene.sampler.replicates;
     report.frame = flat.frame;
     report.primitives = flat.primitives.size();
     report.lights = flat.lights.size();
     report.device_scene_bytes = flat.bytes();
-    report.features = feature_names(flat.features);
-    report.skipped_features = feature_names(every & ~flat.features);
+    report.features = flat.features.on().names();
+    report.skipped_features = (FeatureSet::all() - flat.features.on()).names();
+    report.feature_reasons = flat.features.reasons();
     return report;
 }
 
@@ -182,7 +184,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
 
     progress.start("rendering");
     start = Clock::now();
-    bool next_event = flat.features & feature_bit(feature_next_event);
+    bool next_event = flat.features.has(feature_next_event);
     trace_image(pipeline, scene, sizes, params, next_event, progress);
     if (options.checked) check_bounds(pipeline);
     result.report.render_seconds = seconds_since(start);

@@ -21,7 +21,7 @@ struct RenderOptions {
 };
 
 /// What the kernels of an image have.
-std::uint64_t render_features(const DeviceScene& scene, const RenderOptions& options);
+FeatureSet render_features(const DeviceScene& scene, const RenderOptions& options);
 
 struct RenderResult {
     Image image;

@@ -4,6 +4,7 @@
 #include "host/render/camera_record.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace parhelion {
@@ -39,6 +40,7 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.blocks_x = sizes.window.blocks_x;
     p.filter_reach = sizes.window.reach;
     p.seed = static_cast<int>(scene.sampler.seed);
+    p.replicate_bits = std::countr_zero(static_cast<unsigned>(scene.sampler.replicates));
     p.max_depth = longest_path(scene.integrator);
     p.rr_depth = scene.integrator.rr_depth;
     p.constant_light = device.constant_light;

@@ -77,7 +77,8 @@ nlohmann::json to_json(const RenderReport& r) {
               {"height_pixels", r.height},
               {"samples_per_pixel", r.samples_per_pixel},
               {"seed", r.seed},
-              {"sampler", r.sampler}}},
+              {"sampler", r.sampler},
+              {"replicates", r.replicates}}},
             {"time",
              {{"load_seconds", r.load_seconds},
               {"bvh_seconds", r.bvh_seconds},
@@ -110,7 +111,8 @@ nlohmann::json to_json(const RenderReport& r) {
               {"host_peak_bytes", r.host_peak_bytes},
               {"compiler_peak_bytes", r.compiler_peak_bytes}}},
             {"features", r.features},
-            {"skipped_features", r.skipped_features}};
+            {"skipped_features", r.skipped_features},
+            {"feature_reasons", r.feature_reasons}};
 }
 
 std::uint64_t peak_host_bytes() {

@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,8 @@ struct RenderReport {
     std::string scene_file, device, driver;
     int lanes = 1, width = 0, height = 0, samples_per_pixel = 0;
     std::uint32_t seed = 0;
-    std::string sampler; ///< pattern of the samples: "sobol" or "independent"
+    int replicates = 1;
+    std::string sampler; ///< pattern of the samples: "faure" or "independent"
     SceneFrame frame;    ///< that the device sees the scene in
     double load_seconds = 0.0, bvh_seconds = 0.0, compile_seconds = 0.0, upload_seconds = 0.0,
            render_seconds = 0.0, write_seconds = 0.0;
@@ -47,6 +49,7 @@ struct RenderReport {
                   host_peak_bytes = 0,
                   compiler_peak_bytes = 0; ///< of a second process that compiled kernels; 0: none
     std::vector<std::string> features, skipped_features;
+    std::map<std::string, std::string> feature_reasons; ///< what was found that decides each
 
     std::uint64_t rays() const { return camera_rays + bounce_rays + shadow_rays; }
     bool all_cached() const;

@@ -21,11 +21,12 @@ namespace {
 
 ProgramSource group_source(ProgramGroup group, const StageOptions& options) {
     // Intrinsics have no bounds.
-    ProgramOptions program{options.lanes, 0, options.portable || options.checked, options.checked};
+    ProgramOptions program{options.lanes, {}, options.portable || options.checked, options.checked};
     std::vector<std::string> files;
     for (std::size_t i = 0; i < stage_count; i++) {
         if (stage_groups[i] != group) continue;
-        program.features |= options.features & stage_features(static_cast<Stage>(i));
+        program.features =
+            program.features | (options.features & stage_features(static_cast<Stage>(i)));
         files.push_back(std::string(stage_names[i]) + ".cl");
     }
     return program_source(files, program);
@@ -150,7 +151,7 @@ void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& 
 StageReport stage_report(std::size_t stage, const StageOptions& options, const Compiled& compiled) {
     StageReport report;
     report.name = stage_names[stage];
-    report.features = feature_names(options.features & stage_features(static_cast<Stage>(stage)));
+    report.features = (options.features & stage_features(static_cast<Stage>(stage))).names();
     report.compile_seconds = compiled.seconds;
     report.cached = compiled.cached;
     return report;

@@ -38,34 +38,32 @@ inline constexpr std::size_t stage_count = stage_names.size();
 struct StageOptions {
     int lanes = 1;
     bool portable = false;
-    std::uint64_t features = 0;
+    FeatureSet features{};
     int work_group_size = 1;
     bool checked = false; ///< kernels look after the bounds of buffers (kernels/device/bounds.h)
 };
 
-/// The part of a feature mask that can change the stage's program; the rest would only make more
-/// programs of the same content.
-constexpr std::uint64_t stage_features(Stage stage) {
-#define SHAPE_BIT(name) | feature_bit(feature_shape_##name)
-    constexpr std::uint64_t shapes = 0 GEOMETRIES(SHAPE_BIT);
-    constexpr std::uint64_t splatting = feature_bit(feature_filter_splatting);
-    constexpr std::uint64_t film = splatting | feature_bit(feature_filter_sampling);
-    constexpr std::uint64_t film_only =
-        feature_bit(feature_moments) | feature_bit(feature_variance);
-    constexpr std::uint64_t streams = feature_bit(feature_ray_streams);
+/// The features that can change the stage's program; the rest would only make more programs of the
+/// same content.
+constexpr FeatureSet stage_features(Stage stage) {
+#define SHAPE_FEATURE(name) feature_shape_##name,
+    constexpr FeatureSet shapes{GEOMETRIES(SHAPE_FEATURE)};
+    constexpr FeatureSet streams{feature_ray_streams};
+    constexpr FeatureSet film{feature_filter_splatting, feature_filter_sampling};
+    constexpr FeatureSet film_only{feature_moments, feature_variance};
+    constexpr FeatureSet camera{feature_thin_lens, feature_far_camera};
     switch (stage) {
     case Stage::generate:
-        return film | feature_bit(feature_thin_lens) | feature_bit(feature_far_camera) |
-               feature_bit(feature_sobol);
+        return film | camera | FeatureSet{feature_faure, feature_replicates};
     case Stage::intersect:
     case Stage::shadow:
         return shapes | streams;
     case Stage::accumulate:
-        return splatting | film_only;
+        return FeatureSet{feature_filter_splatting} | film_only;
     case Stage::shade:
-        return ~(film | streams | feature_bit(feature_thin_lens) | film_only);
+        return FeatureSet::all() - film - streams - FeatureSet{feature_thin_lens} - film_only;
     }
-    return 0;
+    return {};
 }
 
 } // namespace parhelion

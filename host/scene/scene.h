@@ -234,6 +234,8 @@ struct AovRequest {
 #define SHADING_NORMALS(X) X(consistent) X(soft) X(raw)
 #define SHADING_NORMALS_ENUM(name) name,
 enum class ShadingNormals { SHADING_NORMALS(SHADING_NORMALS_ENUM) };
+#define SHADING_NORMALS_NAME(name) #name,
+inline constexpr std::array shading_normals_names{SHADING_NORMALS(SHADING_NORMALS_NAME)};
 
 struct Integrator {
     IntegratorKind kind = IntegratorKind::path;
@@ -244,7 +246,7 @@ struct Integrator {
     ShadingNormals shading_normals = ShadingNormals::consistent;
     bool second_moment = false; ///< wrapped in `moment`: also store the mean of the squared
                                 ///< radiance. What follows from it is the variance of one sample; a
-                                ///< mean of n in the sobol pattern has less than an n-th of it.
+                                ///< mean of n in the pattern has less than an n-th of it.
     bool emitter_samples = true,
          bsdf_samples = true; ///< `direct`: which of the two strategies are used
     std::vector<AovRequest> aovs;
@@ -252,7 +254,7 @@ struct Integrator {
 
 /// How the samples of a pixel lie: Owen-scrambled points of a low-discrepancy sequence, or
 /// independent random numbers.
-#define SAMPLE_PATTERNS(X) X(sobol) X(independent)
+#define SAMPLE_PATTERNS(X) X(faure) X(independent)
 #define PATTERN_ENUM(name) name,
 enum class SamplePattern { SAMPLE_PATTERNS(PATTERN_ENUM) };
 #define PATTERN_NAME(name) #name,
@@ -261,8 +263,9 @@ inline constexpr std::array sample_pattern_names{SAMPLE_PATTERNS(PATTERN_NAME)};
 struct Sampler {
     std::string plugin =
         "independent"; ///< as written; the pattern does not follow it (see Scene::notes)
-    SamplePattern pattern = SamplePattern::sobol;
+    SamplePattern pattern = SamplePattern::faure;
     int samples_per_pixel = 16;
+    int replicates = 1; ///< independently scrambled patterns that take turns, a power of two
     std::uint32_t seed = 0;
 };
 

@@ -34,8 +34,7 @@ Program compile(const RenderDevice& d, const ProgramOptions& options) {
 }
 
 ProgramOptions with_streams(ProgramOptions options, bool streams) {
-    std::uint64_t bit = feature_bit(feature_ray_streams);
-    options.features = streams ? options.features | bit : options.features & ~bit;
+    options.features.set(feature_ray_streams, streams);
     return options;
 }
 
@@ -203,7 +202,7 @@ void Traversal::run_on_host(Stage stage, const Sizes& s, Work& work) const {
     memory.results = std::move(work.results);
     auto& state = stage == Stage::shadow ? memory.shadow_state : memory.path_state;
     state = std::move(work.state);
-    std::uint64_t features = ~feature_bit(feature_ray_streams);
+    FeatureSet features = FeatureSet::all() - FeatureSet{feature_ray_streams};
     HostLaunch<float> launch{scene_arrays(scene_), params(s), features, WaveParams{}, memory};
     parallel_for(s.segments, [&](std::size_t number) {
         run_work_item(stage, launch, 1, static_cast<int>(number));

@@ -38,7 +38,8 @@
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
     X(ggx) X(beckmann) X(anisotropy)                                                               \
     X(energy_compensation) /* some rough lobe makes up for what it scatters more than once */      \
-    X(sobol)              /* samples of a pixel in a pattern; without: independent */               \
+    X(faure)              /* samples of a pixel in a pattern; without: independent */               \
+    X(replicates)         /* that is several, each scrambled by itself */                           \
     X(thin_lens)                                                                                   \
     X(far_camera)         /* so far from all shapes that rays begin near them */                   \
     X(filter_splatting)   /* a sample counts for all pixels that the filter reaches */              \
@@ -83,6 +84,14 @@ enum AovKind { AOVS(KIND_AOV) aov_kind_count };
 #define KIND_FILM_AOV(name, channels, suffixes) film_aov_##name,
 enum FilmAovKind { FILM_AOVS(KIND_FILM_AOV) film_aov_kind_count };
 
-#define HAS(x) (((FEATURE_MASK) >> feature_##x) & 1u)
+// Words of 64 bits that hold them all.
+#define FEATURE_WORDS 2
+#ifdef __OPENCL_C_VERSION__
+#define HAS(x)                                                                                     \
+    (((feature_##x < 64 ? FEATURES_0 : FEATURES_1) >> (feature_##x & 63)) & 1u) // compiler options
+#else
+static_assert(feature_count <= 64 * FEATURE_WORDS);
+#define HAS(x) (FEATURES.has(feature_##x)) // a FeatureSet (host/feature_set.h)
+#endif
 
 #endif

@@ -1,14 +1,5 @@
-// Random numbers as a function of (seed, pixel, sample, dimension) alone: the image cannot depend
-// on how work is split.
-
-/// Which decision a set of four numbers feeds. Each bounce takes its own block of dimensions.
-enum SamplerDimension {
-    dimension_camera, // film position, lens position
-    dimension_first_bounce,
-    dimension_emitter = 0, // within a bounce: pick (2 integers), position on the emitter
-    dimension_bsdf,        // direction, lobe, roulette
-    dimensions_per_bounce
-};
+// Random numbers as a function of (seed, pixel, sample, set) alone: the image cannot depend on how
+// work is split. Which set is for which decision says draws.h.
 
 typedef struct {
     Uint x, y, z, w;
@@ -16,11 +7,11 @@ typedef struct {
 
 /// PCG4D hash (Jarzynski and Olano 2020, "Hash functions for GPU rendering", JCGT 9(3)): four
 /// 32-bit numbers.
-FN Random4 random4(Uint pixel, Uint sample, Uint dimension, Uint seed) {
+FN Random4 random4(Uint pixel, Uint sample, Uint set, Uint seed) {
     Random4 v;
     v.x = pixel * 1664525u + 1013904223u;
     v.y = sample * 1664525u + 1013904223u;
-    v.z = dimension * 1664525u + 1013904223u;
+    v.z = set * 1664525u + 1013904223u;
     v.w = seed * 1664525u + 1013904223u;
     v.x += v.y * v.w;
     v.y += v.z * v.x;

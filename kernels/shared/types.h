@@ -182,6 +182,7 @@ LAYOUT(CameraRecord, 116);
     X(int, block_x) X(int, block_y)           /* pixel in the corner of the first 4x4 block */      \
     X(int, blocks_x)                          /* blocks in a row of the window */                   \
     X(int, seed)                                                                                   \
+    X(int, replicate_bits)                    /* the pattern is 2^these */                          \
     X(int, max_depth)                         /* edges from the camera; INT_MAX without limit */    \
     X(int, rr_depth)                                                                               \
     X(int, constant_light)                    /* row of the constant environment, -1: none */       \
@@ -201,7 +202,7 @@ typedef struct {
     RENDER_FIELDS(FIELD_DECLARE)
     int aov_offset[AOV_LIMIT]; // first film channel of each AOV kind, -1: not asked for
 } RenderParams;
-LAYOUT(RenderParams, 116 + 28 * 4 + AOV_LIMIT * 4);
+LAYOUT(RenderParams, 116 + 29 * 4 + AOV_LIMIT * 4);
 
 // A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
 // Which of them a slot of the pool is, device/wave.h says.

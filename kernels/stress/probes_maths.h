@@ -38,9 +38,10 @@ FN ProbeOut probe_random4(ProbeIn i) {
     return out_random4(
         random4(wordUint(i.w[0]), wordUint(i.w[1]), wordUint(i.w[2]), wordUint(i.w[3])));
 }
-FN ProbeOut probe_sobol4(ProbeIn i) {
-    return out_random4(
-        sobol4(wordUint(i.w[0]), wordUint(i.w[1]), wordUint(i.w[2]), wordUint(i.w[3])));
+FN ProbeOut probe_faure4(ProbeIn i) {
+    // With replicates: a pattern of 8.
+    return out_random4(faure4(
+        sample_number(wordUint(i.w[0]), wordUint(i.w[1]), wordUint(i.w[3]), 3), wordUint(i.w[2])));
 }
 FN ProbeOut probe_disk_uniform(ProbeIn i) { return out2(disk_uniform(in2(i, 0))); }
 FN ProbeOut probe_hemisphere_cosine(ProbeIn i) { return out3(hemisphere_cosine(in2(i, 0))); }
@@ -109,7 +110,7 @@ FN ProbeOut probe_russian_roulette(ProbeIn i) {
     PROBE(neighbours, "ff", 6)                                                                      \
     PROBE(sincos_turns, "u", 2)                                                                    \
     PROBE(exp_negative, "s", 1) PROBE(atan2, "ff", 1) PROBE(acos, "c", 2)                          \
-        PROBE(random4, "bbbb", 12) PROBE(sobol4, "bbbb", 12) PROBE(disk_uniform, "uu", 2) PROBE(hemisphere_cosine, "uu", 3)  \
+        PROBE(random4, "bbbb", 12) PROBE(faure4, "bbbb", 12) PROBE(disk_uniform, "uu", 2) PROBE(hemisphere_cosine, "uu", 3)  \
             PROBE(sphere_uniform, "uu", 3) PROBE(triangle_uniform, "uu", 2) PROBE(frame, "dp", 15) \
                 PROBE(frame_from_tangent, "dp", 9) PROBE(reflect, "dd", 6)                         \
                     PROBE(refract_local, "di", 3) PROBE(refract_about, "ddi", 3)                   \

@@ -32,7 +32,7 @@ TEST_CASE("Every stage compiles with the options that save time", "[device]") {
     for (const Variant& variant : variants) {
         CAPTURE(variant.name());
         ProgramSource source =
-            program_source(files, {variant.lanes, ~std::uint64_t{0}, variant.portable});
+            program_source(files, {variant.lanes, FeatureSet::all(), variant.portable});
         cl::Program program(d.context, source.text);
         std::string options = source.options + " " + d.device.quick_options;
         CHECK_NOTHROW(program.build({d.device.handle}, options.c_str()));

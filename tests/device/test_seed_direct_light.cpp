@@ -128,8 +128,8 @@ TEST_CASE(
     CAMERA_FIELDS(COPY_FIELD)
     int hits = 0, wrong = 0;
     for (int pixel = 0; pixel < 400; pixel++) {
-        auto r = f32::sampler_draw(static_cast<unsigned>(pixel), 0, f32::dimension_camera,
-                                   scene.sampler.seed);
+        auto r =
+            f32::faure4({static_cast<unsigned>(pixel), scene.sampler.seed, 0, 0}, f32::draw_camera);
         int x = pixel % 20, y = pixel / 20;
         f32::vec2 film = {static_cast<float>(x) + .5f + (f32::uniform01(r.x) - .5f),
                           static_cast<float>(y) + .5f + (f32::uniform01(r.y) - .5f)};

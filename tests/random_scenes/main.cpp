@@ -36,7 +36,7 @@ constexpr char verdict_letters[] = "rdxf"; ///< in the order of Verdict
 
 /// In the worker: a line a scene, "<letter> <text>".
 [[noreturn]] void work(const Settings& settings, std::uint64_t first, int out) {
-    std::set<std::uint64_t> programs;
+    std::set<parhelion::FeatureSet> programs;
     for (std::uint64_t i = first; i < settings.first + settings.count; i++) {
         Outcome outcome = try_scene(random_scene(settings.kind, i), settings.trial, programs);
         std::string line =

@@ -72,14 +72,14 @@ std::string on_the_device(const Scene& scene, const Image& host, std::uint64_t b
 }
 
 Outcome render_everywhere(const Scene& scene, const TrialOptions& options,
-                          std::set<std::uint64_t>& programs) {
+                          std::set<FeatureSet>& programs) {
     Image host;
     std::uint64_t bad_samples = 0;
     std::string wrong = on_the_host(scene, options, host, bad_samples);
     if (!wrong.empty()) return {Verdict::failed, wrong};
     RenderOptions all;
     all.all_features = true;
-    std::uint64_t features = render_features(make_device_scene(scene), all);
+    FeatureSet features = render_features(make_device_scene(scene), all);
     if (!programs.contains(features) && programs.size() >= options.most_programs)
         return {Verdict::rendered, ""};
     programs.insert(features);
@@ -91,7 +91,7 @@ Outcome render_everywhere(const Scene& scene, const TrialOptions& options,
 } // namespace
 
 Outcome try_scene(const RandomScene& scene, const TrialOptions& options,
-                  std::set<std::uint64_t>& programs) {
+                  std::set<FeatureSet>& programs) {
     RenderCommand command;
     command.scene_file = (options.folder / "scene.xml").string();
     write(command.scene_file, scene.xml);

@@ -1,6 +1,7 @@
 // One random scene, rendered in every way there is.
 #pragma once
 
+#include "host/feature_set.h"
 #include "tests/random_scenes/random_scene.h"
 
 #include <filesystem>
@@ -26,6 +27,6 @@ struct TrialOptions {
 /// device and host differ in a bit, a value is not finite and nobody is told when it is written, or
 /// anything but a refusal is thrown. `programs`: sets of features so far.
 Outcome try_scene(const RandomScene& scene, const TrialOptions& options,
-                  std::set<std::uint64_t>& programs);
+                  std::set<parhelion::FeatureSet>& programs);
 
 } // namespace parhelion::test

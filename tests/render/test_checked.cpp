@@ -29,7 +29,7 @@ void check_bounds(const Scene& scene, int lanes) {
 const char* left_buffer(const Scene& scene, const DeviceScene& flat) {
     RenderDevice& device = test_device();
     StageOptions options;
-    options.lanes = 16, options.features = flat.features, options.checked = true;
+    options.lanes = 16, options.features = flat.features.on(), options.checked = true;
     Pipeline pipeline(device, options);
     AovPlan aovs = plan_aovs(scene);
     WorkSplit split;

@@ -82,7 +82,7 @@ TEST_CASE("compile: several programs from one empty cache, at once", "[render]")
 
 TEST_CASE("compile: what cannot be compiled is refused", "[render]") {
     ColdStart cold;
-    for (const char* arguments : {"", "--features sobol '{}'", "--features no_such_feature",
+    for (const char* arguments : {"", "--features faure '{}'", "--features no_such_feature",
                                   "--features none --program no_such_program"}) {
         CAPTURE(arguments);
         std::string command = fmt::format(fmt::runtime(arguments), cold.scene);

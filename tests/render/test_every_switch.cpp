@@ -113,8 +113,8 @@ TEST_CASE("Every feature has a switch that turns it off and on", "[every switch]
             Setup setup{two_of_every(), {}};
             set_energy_compensation(setup.scene, false);
             s.set(setup, on);
-            std::uint64_t features = render_features(make_device_scene(setup.scene), setup.options);
-            CHECK(((features & feature_bit(s.feature)) != 0) == on);
+            FeatureSet features = render_features(make_device_scene(setup.scene), setup.options);
+            CHECK(features.has(s.feature) == on);
         }
 }
 

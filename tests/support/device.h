@@ -44,7 +44,8 @@ inline std::string test_kernel_text(const std::string& name) {
 /// A program from files of tests/device/kernels, one after the other; the last holds the kernel and
 /// gives it its name.
 inline Program test_program(const TestDevice& d, const std::vector<std::string>& files,
-                            const Variant& variant, std::uint64_t features = ~std::uint64_t{0}) {
+                            const Variant& variant,
+                            const FeatureSet& features = FeatureSet::all()) {
     std::string text;
     for (const std::string& file : files)
         text += fmt::format("#line 1 \"{}\"\n", file) + test_kernel_text(file);

@@ -85,9 +85,10 @@ inline void set_anisotropy(Setup& s, bool on) {
     if (!on) change_rough(s.scene, [](auto& b) { b.alpha_v = b.alpha_u; });
 }
 inline void set_energy_compensation(Setup& s, bool on) { set_energy_compensation(s.scene, on); }
-inline void set_sobol(Setup& s, bool on) {
-    s.scene.sampler.pattern = on ? SamplePattern::sobol : SamplePattern::independent;
+inline void set_faure(Setup& s, bool on) {
+    s.scene.sampler.pattern = on ? SamplePattern::faure : SamplePattern::independent;
 }
+inline void set_replicates(Setup& s, bool on) { s.scene.sampler.replicates = on ? 4 : 1; }
 inline void set_thin_lens(Setup& s, bool on) {
     s.scene.camera.aperture_radius = on ? 0.02 : 0;
     s.scene.camera.focus_distance = view_distance(s.scene);

@@ -11,7 +11,7 @@ using TestHit = stress::TracedHit;
 
 struct Traversal : stress::Traversal {
     Traversal(const TestDevice& d, const Variant& variant,
-              std::uint64_t features = ~std::uint64_t{0})
+              const FeatureSet& features = FeatureSet::all())
         : stress::Traversal(d, {variant.lanes, features, variant.portable}) {}
 };
 

@@ -44,7 +44,8 @@ void run_every_stage(const Scene& scene, const DeviceScene& whole, const DeviceS
         work_sizes(sample_window(scene.film), 4, 1, film_channels(scene.integrator, aovs), split);
     WaveMemory<float> memory(sizes);
     HostLaunch<float> launch{scene_arrays(seen), render_params(scene, whole, sizes, aovs),
-                             whole.features, WaveParams{0, sizes.blocks_per_wave, 0, 4}, memory};
+                             whole.features.on(), WaveParams{0, sizes.blocks_per_wave, 0, 4},
+                             memory};
     auto run = [&](Stage stage, int depth, int work_items) {
         for (int number = 0; number < work_items; number++)
             run_work_item(stage, launch, depth, number);
@@ -83,7 +84,7 @@ TEST_CASE("Bounds: to the byte, and never into another buffer", "[bounds]") {
     auto at = [&](int k) { return reinterpret_cast<std::uintptr_t>(memory.data() + k); };
     std::array<BufferRange, 2> buffers{BufferRange{"first", at(0), 16},
                                        BufferRange{"second", at(4), 16}};
-    WorkItem item{0, 0, buffers};
+    WorkItem item{{}, 0, buffers};
     float* first = memory.data();
     for (int k = 0; k < 4; k++)
         CHECK(item.inside(first, first + k, sizeof(float)) == first + k);

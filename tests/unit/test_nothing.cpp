@@ -92,7 +92,7 @@ TEST_CASE("A light of no power is no light, and takes no feature", "[nothing]") 
         kind.add(scene, 0, Rgb(0), Where::room);
         DeviceScene flat = make_device_scene(scene);
         CHECK(flat.lights.empty());
-        CHECK((flat.features & feature_bit(kind.feature)) == 0);
+        CHECK(!flat.features.has(kind.feature));
         for_each_integrator(scene, [](const Scene& s) {
             if (shows_light(s)) CHECK(brightest(s) == 0);
         });
@@ -118,16 +118,16 @@ TEST_CASE("Paths have the features that their length leaves a use for", "[nothin
                      {-1, true, true, true}}) {
         CAPTURE(l.max_depth);
         scene.integrator.max_depth = l.max_depth;
-        std::uint64_t features = make_device_scene(scene).features;
-        CHECK(((features & feature_bit(feature_emission)) != 0) == l.emission);
-        CHECK(((features & feature_bit(feature_next_event)) != 0) == l.next_event);
-        CHECK(((features & feature_bit(feature_scattering)) != 0) == l.scattering);
+        FeatureDecisions features = make_device_scene(scene).features;
+        CHECK(features.has(feature_emission) == l.emission);
+        CHECK(features.has(feature_next_event) == l.next_event);
+        CHECK(features.has(feature_scattering) == l.scattering);
     }
 }
 
 TEST_CASE("Features are those of the records", "[nothing]") {
     Scene scene = small(two_of_every());
-    auto has = [&](Feature f) { return (make_device_scene(scene).features & feature_bit(f)) != 0; };
+    auto has = [&](Feature f) { return make_device_scene(scene).features.has(f); };
     CHECK(has(feature_shape_triangle));
     CHECK(has(feature_vertex_normals));
     std::erase_if(scene.shapes,

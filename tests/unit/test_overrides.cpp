@@ -95,6 +95,7 @@ std::vector<Precedence> table() {
         {"--spp", {"--spp", "9"}, sampler(&Sampler::samples_per_pixel), "4", "21", "9"},
         {"--seed", {"--seed", "8"}, sampler(&Sampler::seed), "0", "4", "8"},
         {"--sampler", {"--sampler", "independent"}, sampler(&Sampler::pattern), "0", "0", "1"},
+        {"--replicates", {"--replicates", "8"}, sampler(&Sampler::replicates), "1", "1", "8"},
         {"--max-depth", {"--max-depth", "2"}, integrator(&Integrator::max_depth), "-1", "7", "2"},
         {"--rr-depth", {"--rr-depth", "9"}, integrator(&Integrator::rr_depth), "5", "3", "9"},
         {"--integrator",

@@ -54,8 +54,8 @@ TEST_CASE("Parallelograms: a quad is one light that both its triangles name, of 
                         [&](const PrimitiveRecord& p) { return p.light == row; }) == 2);
     double area = std::pow(flat.frame.scale, 2); // 1 x 1
     CHECK((quad->area == Approx(area) && quad->extra == Approx(1 / area)));
-    CHECK((flat.features & feature_bit(feature_emitter_area_parallelogram)) != 0);
-    CHECK((flat.features & feature_bit(feature_emitter_area_triangle)) != 0);
+    CHECK(flat.features.has(feature_emitter_area_parallelogram));
+    CHECK(flat.features.has(feature_emitter_area_triangle));
 }
 
 TEST_CASE("Parallelograms: an emitting mesh keeps what does not pair up") {

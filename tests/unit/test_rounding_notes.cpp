@@ -145,7 +145,7 @@ TEST_CASE("Lights: a tiny triangle's row has its edges and its area, wherever it
         Mesh mesh = quad({1, 2, -3}, {size, 0, 0}, {0, size, 0});
         DeviceScene scene = make_device_scene(room_with(mesh, Rgb(1 / (size * size))));
         REQUIRE(scene.lights.size() == 2);
-        CHECK((scene.features & feature_bit(feature_emitter_area_tiny_triangle)) != 0);
+        CHECK(scene.features.has(feature_emitter_area_tiny_triangle));
         double unit = scene.frame.scale * size, area = 0;
         for (const LightRecord& l : scene.lights) {
             CHECK(l.kind == emitter_area_tiny_triangle);

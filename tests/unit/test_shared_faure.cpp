@@ -18,7 +18,7 @@ using Point = std::array<std::uint32_t, 4>;
 
 Point point(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension,
             std::uint32_t seed) {
-    f32::Random4 r = f32::sobol4(pixel, sample, dimension, seed);
+    f32::Random4 r = f32::faure4({pixel, seed, sample, 0}, dimension);
     return {r.x, r.y, r.z, r.w};
 }
 
@@ -60,7 +60,7 @@ double grid_p_value(const F& pair, int count) {
 
 } // namespace
 
-TEST_CASE("Sobol: each coordinate of 2^m samples is in each of 2^m parts once", "[sampler]") {
+TEST_CASE("Faure: each coordinate of 2^m samples is in each of 2^m parts once", "[sampler]") {
     Random random(61);
     for (int m = 0; m <= 12; m++)
         for (int repeat = 0; repeat < 8; repeat++) {
@@ -74,7 +74,7 @@ TEST_CASE("Sobol: each coordinate of 2^m samples is in each of 2^m parts once", 
     SUCCEED();
 }
 
-TEST_CASE("Sobol: (x, y) and (z, w) of 2^m samples fill every elementary interval of the square",
+TEST_CASE("Faure: (x, y) and (z, w) of 2^m samples fill every elementary interval of the square",
           "[sampler]") {
     Random random(62);
     for (int m = 0; m <= 11; m++)
@@ -89,7 +89,7 @@ TEST_CASE("Sobol: (x, y) and (z, w) of 2^m samples fill every elementary interva
     SUCCEED();
 }
 
-TEST_CASE("Sobol: 4^m samples fill every elementary interval in base 4 of the hypercube",
+TEST_CASE("Faure: 4^m samples fill every elementary interval in base 4 of the hypercube",
           "[sampler]") {
     Random random(63);
     for (int m = 0; m <= 5; m++)
@@ -106,7 +106,7 @@ TEST_CASE("Sobol: 4^m samples fill every elementary interval in base 4 of the hy
     SUCCEED();
 }
 
-TEST_CASE("Sobol: one sample is even over the square for every pair of coordinates, along pixels, "
+TEST_CASE("Faure: one sample is even over the square for every pair of coordinates, along pixels, "
           "dimensions and seeds",
           "[sampler]") {
     const int count = 1 << 16;
@@ -128,7 +128,7 @@ TEST_CASE("Sobol: one sample is even over the square for every pair of coordinat
         CHECK(p > level);
 }
 
-TEST_CASE("Sobol: one sample is even over the hypercube along pixels", "[sampler]") {
+TEST_CASE("Faure: one sample is even over the hypercube along pixels", "[sampler]") {
     const int count = 1 << 20;
     std::vector<double> observed(4096), expected(4096, count / 4096.0);
     for (std::uint32_t pixel = 0; pixel < count; pixel++) {
@@ -140,7 +140,7 @@ TEST_CASE("Sobol: one sample is even over the hypercube along pixels", "[sampler
     CHECK(chi_square_p(observed, expected) > 0.01);
 }
 
-TEST_CASE("Sobol: no coordinate knows its neighbour in pixel, row, dimension or seed, nor an "
+TEST_CASE("Faure: no coordinate knows its neighbour in pixel, row, dimension or seed, nor an "
           "earlier sample but by the pattern",
           "[sampler]") {
     const int count = 1 << 16;
@@ -166,7 +166,7 @@ TEST_CASE("Sobol: no coordinate knows its neighbour in pixel, row, dimension or 
         CHECK(p > level);
 }
 
-TEST_CASE("Sobol: every bit is set half of the time", "[sampler]") {
+TEST_CASE("Faure: every bit is set half of the time", "[sampler]") {
     const int count = 1 << 19;
     std::vector<double> set(4 * 32);
     for (std::uint32_t n = 0; n < count; n++) {
@@ -179,7 +179,7 @@ TEST_CASE("Sobol: every bit is set half of the time", "[sampler]") {
         CHECK(normal_two_sided((s - count / 2.0) / std::sqrt(count / 4.0)) > level);
 }
 
-TEST_CASE("Sobol: a scramble moves a bit by those above it alone, and back and forth is the same",
+TEST_CASE("Faure: a scramble moves a bit by those above it alone, and back and forth is the same",
           "[sampler]") {
     Random random(64);
     for (int n = 0; n < 100000; n++) {
@@ -194,7 +194,7 @@ TEST_CASE("Sobol: a scramble moves a bit by those above it alone, and back and f
     }
 }
 
-TEST_CASE("Sobol: at 64 samples means of smooth functions vary by a twentieth of independent ones",
+TEST_CASE("Faure: at 64 samples means of smooth functions vary by a twentieth of independent ones",
           "[sampler]") {
     auto integrand = [](const std::array<double, 4>& u) {
         double sum = 0;
@@ -204,18 +204,74 @@ TEST_CASE("Sobol: at 64 samples means of smooth functions vary by a twentieth of
     };
     Mean means[2];
     for (std::uint32_t pixel = 0; pixel < 2000; pixel++)
-        for (bool sobol : {false, true}) {
+        for (bool pattern : {false, true}) {
             double sum = 0;
             for (std::uint32_t sample = 0; sample < 64; sample++) {
-                f32::Random4 r =
-                    sobol ? f32::sobol4(pixel, sample, 3, 1) : f32::random4(pixel, sample, 3, 1);
+                f32::Random4 r = pattern ? f32::faure4({pixel, 1, sample, 0}, 3)
+                                         : f32::random4(pixel, sample, 3, 1);
                 sum += integrand({f32::uniform01(r.x), f32::uniform01(r.y), f32::uniform01(r.z),
                                   f32::uniform01(r.w)}) /
                        64;
             }
-            means[sobol].add(sum);
+            means[pattern].add(sum);
         }
     CHECK(f64::square(means[1].error()) < f64::square(means[0].error()) / 20);
     CHECK(std::fabs(means[0].mean() - means[1].mean()) <
           4 * std::hypot(means[0].error(), means[1].error()));
+}
+
+TEST_CASE("Faure: replicates take turns, each a pattern of its own, the first as without") {
+    for (int bits = 0; bits <= 3; bits++)
+        for (std::uint32_t sample = 0; sample < 100; sample++) {
+            f32::SampleNumber n = f32::sample_number(5, sample, 9, bits);
+            CHECK(n.replicate == sample % (1u << bits));
+            CHECK(n.index == sample / (1u << bits));
+            CHECK(n.pixel == 5);
+            CHECK(n.seed == 9);
+        }
+    // Each by itself fills the intervals; all together are no more even than chance, as patterns
+    // that know nothing of each other.
+    std::vector<double> p_values;
+    for (std::uint32_t a = 0; a < 8; a++) {
+        std::vector<Point> points;
+        for (std::uint32_t index = 0; index < 256; index++) {
+            f32::Random4 r = f32::faure4({3, 1, index, a}, 7);
+            points.push_back({r.x, r.y, r.z, r.w});
+        }
+        CHECK(unfilled_cells(points, {2, 2, 2, 2}) == 0);
+        for (std::uint32_t b = 0; b < a; b++)
+            p_values.push_back(grid_p_value(
+                [&](std::uint32_t n) {
+                    return std::pair{f32::faure4({n / 64, 1, n % 64, a}, 7).x,
+                                     f32::faure4({n / 64, 1, n % 64, b}, 7).x};
+                },
+                1 << 16));
+    }
+    double level = sidak_level(0.01, p_values.size());
+    for (double p : p_values)
+        CHECK(p > level);
+}
+
+TEST_CASE("Faure: how far replicates' means differ is the error of their mean") {
+    auto integrand = [](const f32::Random4& r) {
+        double x = f32::uniform01(r.x), y = f32::uniform01(r.y);
+        return std::exp(-3 * x * x) * (1 + y);
+    };
+    // Of 4 replicates of 16 samples, in many pixels: their spread against the true error.
+    Mean error, told;
+    const double truth = 0.5 * std::sqrt(M_PI / 3) * std::erf(std::sqrt(3.0)) * 1.5;
+    for (std::uint32_t pixel = 0; pixel < 4000; pixel++) {
+        double means[4] = {}, mean = 0, spread = 0;
+        for (std::uint32_t sample = 0; sample < 64; sample++)
+            means[sample % 4] +=
+                integrand(f32::faure4(f32::sample_number(pixel, sample, 2, 2), 3)) / 16;
+        for (double m : means)
+            mean += m / 4;
+        for (double m : means)
+            spread += (m - mean) * (m - mean) / 3;
+        error.add((mean - truth) * (mean - truth));
+        told.add(spread / 4);
+    }
+    CHECK(std::fabs(error.mean() - told.mean()) < 4 * std::hypot(error.error(), told.error()));
+    CHECK(told.error() < 0.1 * told.mean());
 }

@@ -1,4 +1,4 @@
-// Owen-scrambled points of four dimensions, one set of them for each decision of a path.
+// Owen-scrambled points of four dimensions, Faure's, one set of them for each decision of a path.
 //
 // The points are a digital (0,4)-sequence in base 4 whose pairs (x, y) and (z, w) are (0,2)-
 // sequences in base 2: Faure's construction over the field of four elements {0, 1, g, g^2}, written
@@ -61,7 +61,7 @@ FN GeneratorPowers times_generator_powers(Uint x) {
 FN Uint shear_digits(Uint x) { return x ^ ((x >> 1) & 0x55555555u); }
 
 /// Point number `index` of the sequence, each coordinate in reverse.
-FN Random4 sobol_point(Uint index) {
+FN Random4 faure_point(Uint index) {
     GeneratorPowers powers = times_generator_powers(index);
     Random4 p;
     p.x = index;
@@ -71,13 +71,33 @@ FN Random4 sobol_point(Uint index) {
     return p;
 }
 
-/// Four 32-bit numbers for one decision: the sample's point of the set that belongs to the pixel
-/// and the dimension.
-FN Random4 sobol4(Uint pixel, Uint sample, Uint dimension, Uint seed) {
-    Random4 scramble = random4(pixel, (Uint)0x5eedu, dimension, seed);
+/// Which of a pixel's samples it is. The pattern may be several patterns that take turns,
+/// replicates, each with scrambles of its own: their means differ by the error that each has.
+typedef struct {
+    Uint pixel, seed, index, replicate;
+} SampleNumber;
+
+/// Of 2^replicate_bits replicates.
+FN SampleNumber sample_number(Uint pixel, Uint sample, Uint seed, int replicate_bits) {
+    SampleNumber n;
+    n.pixel = pixel;
+    n.seed = seed;
+    n.index = sample;
+    n.replicate = (Uint)0u;
+    if (HAS(replicates)) {
+        n.index = sample >> replicate_bits;
+        n.replicate = sample ^ (n.index << replicate_bits);
+    }
+    return n;
+}
+
+/// Four 32-bit numbers for one decision: the sample's point of the set that belongs to the pixel,
+/// the decision and the replicate.
+FN Random4 faure4(SampleNumber n, Uint set) {
+    Random4 scramble = random4(n.pixel, (Uint)0x5eedu + n.replicate, set, n.seed);
     Uint order = (scramble.x ^ (scramble.y >> 15)) * 0x2c1b3c6du;
     order ^= order >> 16;
-    Random4 p = sobol_point(owen_scramble(reverse_bits(sample), order));
+    Random4 p = faure_point(owen_scramble(reverse_bits(n.index), order));
     p.x = owen_scramble(p.x, scramble.x);
     p.y = owen_scramble(p.y, scramble.y);
     p.z = owen_scramble(p.z, scramble.z);
@@ -86,7 +106,7 @@ FN Random4 sobol4(Uint pixel, Uint sample, Uint dimension, Uint seed) {
 }
 
 /// The numbers of one decision in the pattern that the render asks for.
-FN Random4 sampler_draw(Uint pixel, Uint sample, Uint dimension, Uint seed) {
-    if (HAS(sobol)) return sobol4(pixel, sample, dimension, seed);
-    return random4(pixel, sample, dimension, seed);
+FN Random4 sampler_draw(SampleNumber n, Uint set) {
+    if (HAS(faure)) return faure4(n, set);
+    return random4(n.pixel, n.index, set, n.seed);
 }
