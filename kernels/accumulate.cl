@@ -1,7 +1,7 @@
 // Accumulate: the finished samples of a wave go to the film, in the order of their numbers.
 #include "device/device.h"
+
 #include "device/lanes_memory.h"
-#include "device/path_state.h"
 #include "device/wave.h"
 
 #include "device/film.h"

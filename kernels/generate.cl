@@ -1,11 +1,10 @@
 // Generate: the camera rays of a wave.
 #include "device/device.h"
-#include "device/lanes_memory.h"
-#include "device/path_state.h"
-#include "device/wave.h"
 
-#include "device/bad_sample.h"
 #include "device/camera_lanes.h"
+#include "device/results.h"
+#include "device/state.h"
+#include "device/wave.h"
 
 typedef struct {
     Real offset, weight;
@@ -29,6 +28,74 @@ FN FilterSample filter_sample(global const FilterBin* table, int bins, Real u) {
     return s;
 }
 
+/// A sample on the film: the pixel that it is of, and its offset from the centre there.
+typedef struct {
+    Mask valid; // on the film, and wanted
+    Int x, y, pixel;
+    vec2 offset;
+    Real weight; // 0 where not valid
+} FilmSample;
+
+/// The pixels of the slots from `slot` on, which stand for `s`.
+FN FilmSample slot_pixels(RenderParams params, WaveParams wave, int slot, SlotSample s) {
+    int block = slot_block(wave, slot);
+    FilmSample f;
+    f.x = params.block_x + block % params.blocks_x * 4 + s.x;
+    f.y = params.block_y + block / params.blocks_x * 4 + s.y;
+    f.valid = (f.x >= params.window_x) & (f.x < params.window_x + params.window_width) &
+              (f.y >= params.window_y) & (f.y < params.window_y + params.window_height);
+    f.pixel = f.y * params.pixel_stride + f.x;
+    return f;
+}
+
+FN vec2 film_position(FilmSample f) {
+    return v2(toReal(f.x) + .5f + f.offset.x, toReal(f.y) + .5f + f.offset.y);
+}
+
+/// Takes the place in the pixel, by two random numbers.
+FN FilmSample placed(FilmSample f, RenderParams params, global const FilterBin* table, Real u,
+                     Real v) {
+    FilterSample x = filter_sample(table, params.filter_bins, u);
+    FilterSample y = filter_sample(table, params.filter_bins, v);
+    f.offset = v2(x.offset, y.offset);
+    if (HAS(filter_sampling) && !params.sample_border) {
+        // A wide filter reaches over the edge of the film: what lies there is no part of the
+        // picture.
+        vec2 at = film_position(f);
+        f.valid = f.valid & (at.x >= 0.f) & (at.x <= (float)params.film_width) & (at.y >= 0.f) &
+                  (at.y <= (float)params.film_height);
+    }
+    f.weight = sel(f.valid, x.weight * y.weight, R(0.));
+    return f;
+}
+
+/// Nothing gathered yet by the slots from `slot` on.
+FN void clear_results(Results results, RenderParams params, int slot, Real weight, vec2 offset) {
+    int channels = result_field_count + params.aov_channels;
+    for (int channel = 0; channel < channels; channel++)
+        STORE_REAL(result_channel(results, channel) + slot, (Real)0.f);
+    STORE_REAL(result_channel(results, result_weight) + slot, weight);
+    if (HAS(filter_splatting)) {
+        STORE_REAL(result_channel(results, channels) + slot, offset.x);
+        STORE_REAL(result_channel(results, channels + 1) + slot, offset.y);
+    }
+}
+
+FN Path camera_path(CameraRay ray, Int slot, Int pixel, Int sample) {
+    Path p;
+    p.origin = ray.origin;
+    p.direction = ray.direction;
+    p.t = ray.t_max;
+    p.excluded = (Int)(-1);
+    p.throughput = splat3(R(1.));
+    p.pdf = (Real)INFINITY; // emission met by a camera ray has no other strategy
+    p.eta_scale = R(1.);
+    p.slot = slot;
+    p.pixel = pixel;
+    p.sample = sample;
+    return p;
+}
+
 /// Reads: camera, filter table. Writes: results (cleared), counts, path state. Pushes: one path a
 /// valid pixel and sample.
 kernel void generate(KERNEL_PARAMETERS) {
@@ -39,64 +106,24 @@ kernel void generate(KERNEL_PARAMETERS) {
     int to = segment * params.segment_stride, begin = to;
     Camera camera = camera_lanes(params.camera);
     for (int slot = first; slot < last; slot += LANES) {
-        int block = slot_block(wave, slot);
         SlotSample s = slot_sample(wave, slot);
-        Int x = params.block_x + block % params.blocks_x * 4 + s.x;
-        Int y = params.block_y + block / params.blocks_x * 4 + s.y;
-        Mask valid = (x >= params.window_x) & (x < params.window_x + params.window_width) &
-                     (y >= params.window_y) & (y < params.window_y + params.window_height);
-        Int pixel = y * params.pixel_stride + x;
-        SampleNumber number = sample_number(asUint(pixel), asUint(s.sample),
+        FilmSample film_sample = slot_pixels(params, wave, slot, s);
+        SampleNumber number = sample_number(asUint(film_sample.pixel), asUint(s.sample),
                                             (Uint)(uint)params.seed, params.replicate_bits);
         Random4 random = sampler_draw(number, (Uint)(uint)draw_camera);
-        FilterSample fx = filter_sample(filter_table, params.filter_bins, uniform01(random.x));
-        FilterSample fy = filter_sample(filter_table, params.filter_bins, uniform01(random.y));
-        vec2 film_position = v2(toReal(x) + .5f + fx.offset, toReal(y) + .5f + fy.offset);
-        Real weight = fx.weight * fy.weight;
-        if (HAS(filter_sampling) && !params.sample_border) {
-            // A wide filter reaches over the edge of the film: what lies there is no part of the
-            // picture.
-            Mask on_film =
-                (film_position.x >= 0.f) & (film_position.x <= (float)params.film_width) &
-                (film_position.y >= 0.f) & (film_position.y <= (float)params.film_height);
-            valid = valid & on_film;
-        }
-        weight = sel(valid, weight, R(0.));
+        film_sample =
+            placed(film_sample, params, filter_table, uniform01(random.x), uniform01(random.y));
         vec2 lens = v2(R(0.), R(0.));
         if (HAS(thin_lens)) lens = disk_uniform(uniform2(random.z, random.w));
-        CameraRay ray = camera_ray(camera, film_position, lens);
+        CameraRay ray = camera_ray(camera, film_position(film_sample), lens);
         // As mark_bad does, with what its alpha then says: 0, no bounce and the first of the
         // faults.
-        Mask bad = valid & (nought3(ray.origin) + nought3(ray.direction) != R(0.));
-        weight = sel(bad, (Real)NAN, weight);
-
-        int channels = result_field_count + params.aov_channels;
-        for (int channel = 0; channel < channels; channel++)
-            STORE_REAL(RESULT(channel) + slot, (Real)0.f);
-        STORE_REAL(RESULT(result_weight) + slot, weight);
-        if (HAS(filter_splatting)) {
-            STORE_REAL(RESULT(channels) + slot, fx.offset);
-            STORE_REAL(RESULT(channels + 1) + slot, fy.offset);
-        }
-
-        uint bits = maskBits(valid);
-        PATH_PACK_REAL(ox, ray.origin.x);
-        PATH_PACK_REAL(oy, ray.origin.y);
-        PATH_PACK_REAL(oz, ray.origin.z);
-        PATH_PACK_REAL(dx, ray.direction.x);
-        PATH_PACK_REAL(dy, ray.direction.y);
-        PATH_PACK_REAL(dz, ray.direction.z);
-        PATH_PACK_REAL(t, ray.t_max);
-        PATH_PACK_REAL(tr, (Real)1.f);
-        PATH_PACK_REAL(tg, (Real)1.f);
-        PATH_PACK_REAL(tb, (Real)1.f);
-        PATH_PACK_REAL(pdf, (Real)INFINITY); // emission met by a camera ray has no other strategy
-        PATH_PACK_REAL(eta_scale, (Real)1.f);
-        PATH_PACK_INT(slot, (Int)slot + LANE_INDEX);
-        PATH_PACK_INT(pixel, pixel);
-        PATH_PACK_INT(sample, s.sample);
-        PATH_PACK_INT(excluded, (Int)(-1));
-        to += popcount(bits);
+        Mask bad = film_sample.valid & (nought3(ray.origin) + nought3(ray.direction) != R(0.));
+        clear_results(results_of(results, params), params, slot,
+                      sel(bad, (Real)NAN, film_sample.weight), film_sample.offset);
+        Path path = camera_path(ray, (Int)slot + LANE_INDEX, film_sample.pixel, s.sample);
+        to += pack_path(state_place(path_state, params.state_stride, to), path,
+                        maskBits(film_sample.valid));
     }
     AT(global int, counts, 2 * segment) = to - begin;
     AT(global ulong, statistics, statistic_count * segment + statistic_camera_rays) +=

@@ -1,7 +1,7 @@
 // Intersect: the closest hit of every live path.
 #include "device/device.h"
-#include "device/lanes_memory.h"
-#include "device/path_state.h"
+
+#include "device/state.h"
 #include "device/traverse_packet.h"
 #include "device/traverse_stream.h"
 
@@ -9,16 +9,14 @@
 FN void intersect_packets(global const BvhNode* nodes, global const BvhLine* leaves, int root,
                           global float* path_state, RenderParams params, int begin, int end) {
     for (int at = begin; at < end; at += LANES) {
-        PacketRay rays = packet_ray(v3(PATH_LOAD_REAL(ox), PATH_LOAD_REAL(oy), PATH_LOAD_REAL(oz)),
-                                    v3(PATH_LOAD_REAL(dx), PATH_LOAD_REAL(dy), PATH_LOAD_REAL(dz)),
-                                    tree_sizes(params));
+        StatePlace place = state_place(path_state, params.state_stride, at);
+        PacketRay rays =
+            packet_ray(ray_at_origin(place), ray_at_direction(place), tree_sizes(params));
         PacketHit hit =
-            traverse_packet(nodes, leaves, root, rays, tree_sizes(params), PATH_LOAD_REAL(t),
-                            PATH_LOAD_INT(excluded), active_lanes(end - at), 0);
-        PATH_STORE_REAL(t, hit.t);
-        PATH_STORE_REAL(b1, hit.b1);
-        PATH_STORE_REAL(b2, hit.b2);
-        PATH_STORE_INT(primitive, sel(hit.primitive == NO_PRIMITIVE, (Int)(-1), hit.primitive));
+            traverse_packet(nodes, leaves, root, rays, tree_sizes(params), ray_at_t(place),
+                            ray_at_excluded(place), active_lanes(end - at), 0);
+        store_hit(place, hit.t, hit.b1, hit.b2,
+                  sel(hit.primitive == NO_PRIMITIVE, (Int)(-1), hit.primitive));
     }
 }
 

@@ -20,15 +20,13 @@ std::size_t entry(const WorkSizes& s, std::size_t i) {
 
 float as_float(int i) { return std::bit_cast<float>(i); }
 
-static_assert(int{path_ox} == int{shadow_ox} && int{path_t} == int{shadow_t});
-
 /// The fields that both states begin with.
 void lay_out(const Ray& r, float* at, std::size_t stride) {
     for (std::size_t axis = 0; axis < 3; axis++) {
-        at[(path_ox + axis) * stride] = r.origin[axis];
-        at[(path_dx + axis) * stride] = r.direction[axis];
+        at[(ray_origin + axis) * stride] = r.origin[axis];
+        at[(ray_direction + axis) * stride] = r.direction[axis];
     }
-    at[path_t * stride] = r.t_max;
+    at[ray_t * stride] = r.t_max;
 }
 
 } // namespace
@@ -51,9 +49,9 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     split_.streams = 1;
     sizes_ = work_sizes(sample_window(film), 1, lanes, result_field_count, split_);
     auto segments = static_cast<std::size_t>(sizes_.segments);
-    work_.path_state = {device.context, "path_state", path_field_count * sizes_.state_stride()};
+    work_.path_state = {device.context, "path_state", path_word_count * sizes_.state_stride()};
     work_.shadow_state = {device.context, "shadow_state",
-                          shadow_field_count * sizes_.state_stride()};
+                          shadow_word_count * sizes_.state_stride()};
     work_.results = {device.context, "results", result_field_count * sizes_.result_stride()};
     work_.counts = {device.context, "counts", 2 * segments};
     work_.statistics = {device.context, "statistics", statistic_count * segments};
@@ -123,7 +121,8 @@ void OpenClTracer::fill_shadows(std::span<const Ray> rays) {
         const Ray& r = rays[i];
         float* at = state_.data() + entry(sizes_, i);
         lay_out(r, at, stride);
-        at[shadow_r * stride] = at[shadow_g * stride] = at[shadow_b * stride] = 1;
+        for (int channel = 0; channel < 3; channel++)
+            at[(shadow_contribution + channel) * stride] = 1;
         at[shadow_excluded * stride] = as_float(r.excluded);
         at[shadow_slot * stride] = as_float(static_cast<int>(i));
     }

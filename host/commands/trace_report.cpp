@@ -100,7 +100,7 @@ json emission_json(const SceneFrame& frame, const TraceVertex& v) {
 json draws_json(const TraceVertex& v) {
     json draws = json::array();
     for (const ShadeNotes::Draw& draw : v.notes.draws)
-        draws.push_back({{"dimension", draw.dimension}, {"numbers", draw.numbers}});
+        draws.push_back({{"for", draw.decision}, {"numbers", draw.numbers}});
     return draws;
 }
 

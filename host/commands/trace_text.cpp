@@ -70,8 +70,7 @@ std::string roulette_text(const json& r) {
 std::string random_text(const json& draws) {
     std::string text;
     for (const json& draw : draws)
-        text += fmt::format("{}dimension {}", text.empty() ? "" : ", ",
-                            draw["dimension"].get<unsigned>());
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", draw["for"].get<std::string>());
     return line("random", text);
 }
 

@@ -30,16 +30,14 @@ struct Kernels : WorkItem {
     void intersect(KERNEL_PARAMETERS) {
         int base = number * params.segment_stride, end = base + AT(int, counts, 2 * number);
         int root = depth == 0 ? params.camera_root : params.root;
+        TreeSizes sizes = tree_sizes(params);
         for (int at = base; at < end; at++) {
-            PacketRay ray = packet_ray(
-                v3(PATH_LOAD_REAL(ox), PATH_LOAD_REAL(oy), PATH_LOAD_REAL(oz)),
-                v3(PATH_LOAD_REAL(dx), PATH_LOAD_REAL(dy), PATH_LOAD_REAL(dz)), tree_sizes(params));
-            PlainHit hit = plain_walk(bvh_nodes, bvh_leaves, primitives, root, ray,
-                                      PATH_LOAD_REAL(t), PATH_LOAD_INT(excluded), false);
-            PATH_STORE_REAL(t, hit.t);
-            PATH_STORE_REAL(b1, hit.b1);
-            PATH_STORE_REAL(b2, hit.b2);
-            PATH_STORE_INT(primitive, hit.primitive);
+            StatePlace place = state_place(path_state, params.state_stride, at);
+            PlainHit hit =
+                plain_walk(bvh_nodes, bvh_leaves, primitives, root,
+                           packet_ray(ray_at_origin(place), ray_at_direction(place), sizes),
+                           ray_at_t(place), ray_at_excluded(place), false);
+            store_hit(place, hit.t, hit.b1, hit.b2, hit.primitive);
         }
         if (depth > 0)
             AT(ulong, statistics, statistic_count * number + statistic_bounce_rays) +=
@@ -48,16 +46,15 @@ struct Kernels : WorkItem {
 
     void shadow(KERNEL_PARAMETERS) {
         int base = number * params.segment_stride, end = base + AT(int, counts, 2 * number + 1);
+        TreeSizes sizes = blocking_sizes(params);
         for (int at = base; at < end; at++) {
-            PacketRay ray =
-                packet_ray(v3(SHADOW_LOAD_REAL(ox), SHADOW_LOAD_REAL(oy), SHADOW_LOAD_REAL(oz)),
-                           v3(SHADOW_LOAD_REAL(dx), SHADOW_LOAD_REAL(dy), SHADOW_LOAD_REAL(dz)),
-                           blocking_sizes(params));
-            PlainHit hit = plain_walk(bvh_nodes, bvh_leaves, primitives, params.root, ray,
-                                      SHADOW_LOAD_REAL(t), SHADOW_LOAD_INT(excluded), true);
-            vec3 light = v3(SHADOW_LOAD_REAL(r), SHADOW_LOAD_REAL(g), SHADOW_LOAD_REAL(b));
-            add_result3(results, params.result_stride, result_r, SHADOW_LOAD_INT(slot), light,
-                        hit.primitive < 0);
+            StatePlace place = state_place(shadow_state, params.state_stride, at);
+            PlainHit hit =
+                plain_walk(bvh_nodes, bvh_leaves, primitives, params.root,
+                           packet_ray(ray_at_origin(place), ray_at_direction(place), sizes),
+                           ray_at_t(place), ray_at_excluded(place), true);
+            add_result3(results_of(results, params), result_r, shadow_at_slot(place),
+                        shadow_at_contribution(place), hit.primitive < 0);
         }
         AT(ulong, statistics, statistic_count * number + statistic_shadow_rays) +=
             static_cast<ulong>(end - base);

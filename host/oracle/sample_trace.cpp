@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace parhelion {
 namespace {
@@ -40,12 +41,12 @@ public:
     bool lives() const { return launch_.memory.counts[0] > 0; }
     bool has_shadow_ray() const { return launch_.memory.counts[1] > 0; }
 
-    float path(PathField f) const { return state(launch_.memory.path_state, f); }
-    float shadow(ShadowField f) const { return state(launch_.memory.shadow_state, f); }
-    Triple path3(PathField f) const { return triple(launch_.memory.path_state, f); }
-    Triple shadow3(ShadowField f) const { return triple(launch_.memory.shadow_state, f); }
-    int path_int(PathField f) const { return std::bit_cast<int>(path(f)); }
-    int shadow_int(ShadowField f) const { return std::bit_cast<int>(shadow(f)); }
+    float path(PathWord f) const { return state(launch_.memory.path_state, f); }
+    float shadow(ShadowWord f) const { return state(launch_.memory.shadow_state, f); }
+    Triple path3(PathWord f) const { return triple(launch_.memory.path_state, f); }
+    Triple shadow3(ShadowWord f) const { return triple(launch_.memory.shadow_state, f); }
+    int path_int(PathWord f) const { return std::bit_cast<int>(path(f)); }
+    int shadow_int(ShadowWord f) const { return std::bit_cast<int>(shadow(f)); }
     /// Of the sample, which is the first of its block.
     float result(int channel) const {
         return launch_.memory
@@ -65,9 +66,8 @@ private:
 };
 
 void read_ray(const OnePath& path, TraceVertex& v) {
-    v.origin = path.path3(path_ox), v.direction = path.path3(path_dx);
-    v.throughput = path.path3(path_tr);
-    v.pdf = path.path(path_pdf);
+    v.origin = path.path3(path_origin), v.direction = path.path3(path_direction);
+    v.throughput = path.path3(path_throughput);
 }
 
 void read_hit(const OnePath& path, const DeviceScene& scene, TraceVertex& v) {
@@ -133,10 +133,10 @@ bool trace_vertex(OnePath& path, const DeviceScene& scene, bool last, TraceVerte
         v.light = unsent_light(v);
         v.shadow_ray = path.has_shadow_ray();
         v.goes_on = path.lives();
-        if (v.goes_on) v.throughput_after = path.path3(path_tr);
+        if (v.goes_on) v.throughput_after = path.path3(path_throughput);
     }
     if (v.shadow_ray) {
-        v.light = path.shadow3(shadow_r);
+        v.light = path.shadow3(shadow_contribution);
         path.run(Stage::shadow, v.bounce);
         v.blocked = path.shadow_int(shadow_blocked) != 0;
     }
@@ -170,11 +170,14 @@ SampleTrace trace_sample(const Scene& scene, const DeviceScene& flat, int x, int
     SampleTrace trace;
     trace.x = x, trace.y = y, trace.sample = sample;
     trace.on_film = path.lives();
+    float pdf = std::numeric_limits<float>::infinity();
     for (bool alive = trace.on_film; alive;) {
         TraceVertex& v = trace.vertices.emplace_back();
+        v.pdf = pdf;
         v.bounce = static_cast<int>(trace.vertices.size()) - 1;
         bool last = v.bounce + 1 == launch.params.max_depth;
         alive = trace_vertex(path, flat, last, v);
+        if (v.notes.scattered) pdf = v.notes.scattered->pdf;
         if (!v.not_finite.empty() && trace.first_not_finite < 0) trace.first_not_finite = v.bounce;
     }
     add_up(path, memory, trace);

@@ -44,7 +44,7 @@ struct ShadeNotes {
         float scale; ///< 1 / probability
     };
     struct Draw {
-        unsigned dimension;
+        const char* decision; ///< of BOUNCE_DRAWS
         std::array<unsigned, 4> numbers;
     };
 

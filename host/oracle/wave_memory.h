@@ -24,8 +24,8 @@ struct WaveMemory {
 
     /// All zero.
     explicit WaveMemory(const WorkSizes& s)
-        : path_state(path_field_count * s.state_stride()),
-          shadow_state(shadow_field_count * s.state_stride()),
+        : path_state(path_word_count * s.state_stride()),
+          shadow_state(shadow_word_count * s.state_stride()),
           results(s.result_channels() * s.result_stride()),
           counts(2 * static_cast<std::size_t>(s.segments)),
           statistics(statistic_count *

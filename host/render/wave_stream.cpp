@@ -88,8 +88,8 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
         kernels_.push_back(programs.programs[stage].kernel(stage_names[stage]));
     std::size_t counted = std::max(s.segments, s.blocks_per_wave);
     const cl::Context& context = device.context;
-    work_.path_state = {context, "path_state", path_field_count * s.state_stride()};
-    work_.shadow_state = {context, "shadow_state", shadow_field_count * s.state_stride()};
+    work_.path_state = {context, "path_state", path_word_count * s.state_stride()};
+    work_.shadow_state = {context, "shadow_state", shadow_word_count * s.state_stride()};
     work_.results = {context, "results", s.result_channels() * s.result_stride()};
     work_.counts = {context, "counts", 2 * static_cast<std::size_t>(s.segments)};
     work_.statistics = {context, "statistics", statistic_count * counted};

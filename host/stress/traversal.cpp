@@ -86,7 +86,7 @@ struct Traversal::Work {
     }
 
     static Work of_paths(Rays rays, const Sizes& s) {
-        Work w{std::vector<float>(path_field_count * s.stride()), std::vector<float>(1)};
+        Work w{std::vector<float>(path_word_count * s.stride()), std::vector<float>(1)};
         for (std::size_t i = 0; i < rays.size(); i++) {
             put_ray(w.state, s.stride(), i, rays[i]);
             w.state[path_excluded * s.stride() + i] = std::bit_cast<float>(rays[i].excluded);
@@ -95,12 +95,13 @@ struct Traversal::Work {
     }
 
     static Work of_shadow_rays(Rays rays, const Sizes& s) {
-        Work w{std::vector<float>(shadow_field_count * s.stride()),
+        Work w{std::vector<float>(shadow_word_count * s.stride()),
                std::vector<float>(result_field_count * s.stride())};
         for (std::size_t i = 0; i < rays.size(); i++) {
             put_ray(w.state, s.stride(), i, rays[i]);
             for (int channel = 0; channel < 3; channel++)
-                w.state[(shadow_r + channel) * s.stride() + i] = static_cast<float>(1 << channel);
+                w.state[(shadow_contribution + channel) * s.stride() + i] =
+                    static_cast<float>(1 << channel);
             w.state[shadow_slot * s.stride() + i] = std::bit_cast<float>(static_cast<int>(i));
             w.state[shadow_excluded * s.stride() + i] = std::bit_cast<float>(rays[i].excluded);
         }

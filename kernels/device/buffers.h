@@ -19,8 +19,8 @@
     X(FilterBin, filter_table) X(float, filter_values) /* at n / FILTER_INTERVALS pixels */
 
 // element type, name: what a render works on
-//   path_state    PATH_FIELDS x state_stride: live paths, packed at the front of each segment
-//   shadow_state  SHADOW_FIELDS x state_stride: shadow rays, likewise
+//   path_state    words of PATH_FIELDS x state_stride: live paths, packed at the front of each segment
+//   shadow_state  words of SHADOW_FIELDS x state_stride: shadow rays, likewise
 //   results       RESULT_FIELDS + AOV channels, x result_stride: what each path slot has gathered;
 //                 if HAS(filter_splatting), two more: its offset from the centre of its pixel
 //   counts        2 a segment: live paths, shadow rays
@@ -33,19 +33,24 @@
     X(int, counts) X(ulong, statistics) X(int, bad_samples)
 #define WORK_BUFFERS(X) WAVE_BUFFERS(X) X(float, film)
 
-// One path: ray (t: the end of the ray, then the distance of the hit), throughput, density of its direction, product of the
-// indices of refraction, hit coordinates, its slot, its random number stream, what the ray must not hit, what it hit.
-#define PATH_FIELDS(X)                                                                             \
-    X(float, ox) X(float, oy) X(float, oz) X(float, dx) X(float, dy) X(float, dz) X(float, t)      \
-    X(float, tr) X(float, tg) X(float, tb) X(float, pdf) X(float, eta_scale)                       \
-    X(float, b1) X(float, b2)                                                                      \
-    X(int, slot) X(int, pixel) X(int, sample) X(int, excluded) X(int, primitive)
+// The lists of states: type of a field in a lane, name, whether anything needs it.
 
-// A shadow ray and what it brings if nothing is in its way.
-#define SHADOW_FIELDS(X)                                                                           \
-    X(float, ox) X(float, oy) X(float, oz) X(float, dx) X(float, dy) X(float, dz) X(float, t)      \
-    X(float, r) X(float, g) X(float, b)                                                            \
-    X(int, slot) X(int, excluded) X(int, blocked)
+// A ray; t: its end, and once it has hit, how far; what it must not hit.
+#define RAY_FIELDS(X) X(vec3, origin, 1) X(vec3, direction, 1) X(Real, t, 1) X(Int, excluded, 1)
+
+// What a path takes along: throughput, density of its direction, product of the indices of refraction, its slot, its random numbers.
+#define CARRIED_FIELDS(X)                                                                          \
+    X(vec3, throughput, 1) X(Real, pdf, HAS(emission)) X(Real, eta_scale, HAS(russian_roulette))    \
+    X(Int, slot, 1) X(Int, pixel, 1) X(Int, sample, 1)
+
+// What its ray has hit, and where on that.
+#define HIT_FIELDS(X) X(Real, b1, 1) X(Real, b2, 1) X(Int, primitive, 1)
+
+// What a shadow ray brings where nothing is in its way.
+#define BROUGHT_FIELDS(X) X(vec3, contribution, 1) X(Int, slot, 1)
+
+#define PATH_FIELDS(X) RAY_FIELDS(X) CARRIED_FIELDS(X) HIT_FIELDS(X)
+#define SHADOW_FIELDS(X) RAY_FIELDS(X) BROUGHT_FIELDS(X) X(Int, blocked, HAS(ray_streams))
 
 // What a path slot gathers; the AOV channels follow.
 #define RESULT_FIELDS(X) X(float, r) X(float, g) X(float, b) X(float, alpha) X(float, weight)
@@ -67,10 +72,16 @@
 // Pixels count from the top left corner of the film; bounce -1: unknown.
 #define BAD_SAMPLE_FIELDS(X) X(known) X(sample) X(x) X(y) X(fault) X(bounce)
 
-#define PATH_ENUM(type, name) path_##name,
-enum PathField { PATH_FIELDS(PATH_ENUM) path_field_count };
-#define SHADOW_ENUM(type, name) shadow_##name,
-enum ShadowField { SHADOW_FIELDS(SHADOW_ENUM) shadow_field_count };
+// Numbers of words, of a vector's first.
+#define WORDS_Real(name) name,
+#define WORDS_Int(name) name,
+#define WORDS_vec3(name) name, name##_y, name##_z,
+#define RAY_WORD(type, name, needed) WORDS_##type(ray_##name)
+enum RayWord { RAY_FIELDS(RAY_WORD) ray_word_count };
+#define PATH_WORD(type, name, needed) WORDS_##type(path_##name)
+enum PathWord { PATH_FIELDS(PATH_WORD) path_word_count };
+#define SHADOW_WORD(type, name, needed) WORDS_##type(shadow_##name)
+enum ShadowWord { SHADOW_FIELDS(SHADOW_WORD) shadow_word_count };
 #define RESULT_ENUM(type, name) result_##name,
 enum ResultField { RESULT_FIELDS(RESULT_ENUM) result_field_count };
 #define SPREAD_ENUM(name) spread_##name,

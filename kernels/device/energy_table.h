@@ -1,4 +1,8 @@
 // Looking up what a rough material's lobes are scaled by to keep the energy of single scattering.
+#ifndef PARHELION_ENERGY_TABLE_H
+#define PARHELION_ENERGY_TABLE_H
+
+#include "device/lanes_memory.h"
 
 FN vec3 compensate_energy(global const float* tables, Material m, vec3 wo, Mask wanted) {
     vec3 gain = splat3(R(1.));
@@ -17,3 +21,5 @@ FN vec3 compensate_energy(global const float* tables, Material m, vec3 wo, Mask 
     }
     return gain;
 }
+
+#endif

@@ -221,10 +221,10 @@ FN Record load_record(global const float* records, Int index) {
 #endif
 #endif
 
-// The fields of a record by name, from the list in types.h.
+// The fields of a record by name, from the lists in types.h.
 #if LANES == 1
 #define RECORD_FIELD(type, name) s.name = record->name;
-#define LOADER(Struct, FIELDS, UNPACK, ENUM)                                                       \
+#define LOADER(Struct, FIELDS)                                                                     \
     FN Struct load_##Struct(global const Struct##Record* records, Int index) {                     \
         global const Struct##Record* record =                                                      \
             IN_BUFFER(global const Struct##Record, records, index);                                \
@@ -235,29 +235,17 @@ FN Record load_record(global const float* records, Int index) {
 #else
 #define WORD_float(w) (w)
 #define WORD_int(w) asInt(w)
-#define LOADER(Struct, FIELDS, UNPACK, ENUM)                                                       \
-    enum { FIELDS(ENUM) };                                                                         \
+#define RECORD_FIELD(type, name)                                                                   \
+    s.name = WORD_##type(record.word[__builtin_offsetof(Stored, name) / sizeof(int)]);
+#define LOADER(Struct, FIELDS)                                                                     \
     FN Struct load_##Struct(global const Struct##Record* records, Int index) {                     \
+        typedef Struct##Record Stored;                                                             \
         Record record = load_record((global const float*)records, index);                          \
         Struct s;                                                                                  \
-        FIELDS(UNPACK)                                                                             \
+        FIELDS(RECORD_FIELD)                                                                       \
         return s;                                                                                  \
     }
 #endif
-#define PRIMITIVE_ENUM(type, name) primitive_word_##name,
-#define PRIMITIVE_UNPACK(type, name) s.name = WORD_##type(record.word[primitive_word_##name]);
-LOADER(Primitive, PRIMITIVE_FIELDS, PRIMITIVE_UNPACK, PRIMITIVE_ENUM)
-#define VERTEX_ENUM(type, name) vertex_word_##name,
-#define VERTEX_UNPACK(type, name) s.name = WORD_##type(record.word[vertex_word_##name]);
-LOADER(Vertex, VERTEX_FIELDS, VERTEX_UNPACK, VERTEX_ENUM)
-#define MATERIAL_ENUM(type, name) material_word_##name,
-#define MATERIAL_UNPACK(type, name) s.name = WORD_##type(record.word[material_word_##name]);
-LOADER(Material, MATERIAL_FIELDS, MATERIAL_UNPACK, MATERIAL_ENUM)
-#define LIGHT_ENUM(type, name) light_word_##name,
-#define LIGHT_UNPACK(type, name) s.name = WORD_##type(record.word[light_word_##name]);
-LOADER(Light, LIGHT_FIELDS, LIGHT_UNPACK, LIGHT_ENUM)
-#define LIGHT_NODE_ENUM(type, name) light_node_word_##name,
-#define LIGHT_NODE_UNPACK(type, name) s.name = WORD_##type(record.word[light_node_word_##name]);
-LOADER(LightNode, LIGHT_NODE_FIELDS, LIGHT_NODE_UNPACK, LIGHT_NODE_ENUM)
+RECORDS(LOADER)
 
 #endif

@@ -2,6 +2,8 @@
 #ifndef PARHELION_LIGHT_TABLE_H
 #define PARHELION_LIGHT_TABLE_H
 
+#include "device/lanes_memory.h"
+
 typedef struct {
     Int row;
     Real pmf;      // with which the row was picked; 0: no light reaches the surface

@@ -81,6 +81,65 @@ FN uint few_rays(global const BvhNode* nodes, global const BvhLine* leaves, int 
     return found;
 }
 
+/// A node or a leaf that rays of a packet are to visit, and where the first of them enters it.
+typedef struct {
+    int code;
+    uint bits; // of the rays; none: there is nothing to visit
+    float entry;
+} PacketVisit;
+
+typedef struct {
+    int code[BVH_STACK];
+    uint bits[BVH_STACK];
+    float entry[BVH_STACK];
+    int top;
+} PacketStack;
+
+FN void push_visit(PacketStack* stack, PacketVisit v) {
+    stack->code[stack->top] = v.code;
+    stack->bits[stack->top] = v.bits;
+    stack->entry[stack->top] = v.entry;
+    stack->top++;
+}
+
+/// The nearest of a node's children that the rays meet; the others wait in no particular order.
+FN PacketVisit nearest_child(global const BvhNode* node, PacketRay ray, const PacketBounds* bounds,
+                             Real limit, uint bits, PacketStack* waiting) {
+    PacketVisit next = {0, 0, 0.f};
+    RealLanes entry[LANE_GROUPS];
+    uint candidates =
+        bounds->coherent ? packet_cull(node, bounds, entry) : present_children(node, entry);
+    for (; candidates; candidates &= candidates - 1) {
+        int k = lowest_bit(candidates);
+        PacketVisit child;
+        child.bits = maskBits(packet_overlap(node, k, ray, bounds, limit)) & bits;
+        if (!child.bits) continue;
+        child.code = node->child[k];
+        child.entry = entry[k / LANES].at[k % LANES];
+        if (!next.bits) {
+            next = child;
+            continue;
+        }
+        int nearer = child.entry < next.entry;
+        push_visit(waiting, nearer ? next : child);
+        next = nearer ? child : next;
+    }
+    return next;
+}
+
+/// The last that waits, for the rays that are still open and may find something nearer there.
+FN PacketVisit waiting_visit(PacketStack* stack, uint open, Real rank, int any_hit) {
+    PacketVisit next = {0, 0, 0.f};
+    while (!next.bits && stack->top > 0 && open) {
+        stack->top--;
+        next.code = stack->code[stack->top];
+        next.bits = stack->bits[stack->top] & open;
+        if (!any_hit)
+            next.bits &= maskBits((Real)stack->entry[stack->top] <= rank * R(HIT_WIDENING));
+    }
+    return next;
+}
+
 /// The closest hits of the active rays of a packet, or with any_hit whether each of them hits.
 FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* leaves, int root,
                              PacketRay ray, TreeSizes sizes, Real t_max, Int excluded, Mask active,
@@ -90,14 +149,12 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* 
     hit.t = t_max, hit.b1 = R(0.), hit.b2 = R(0.), hit.primitive = (Int)NO_PRIMITIVE;
     PacketBounds bounds = packet_bounds(ray, active, sizes);
     PacketLanes lanes = packet_lanes(ray);
-    int stack[BVH_STACK];
-    uint stack_bits[BVH_STACK];
-    float stack_entry[BVH_STACK];
+    PacketStack stack;
+    stack.top = 0;
     uint open = maskBits(active), bits = open; // open: still looking
-    int top = 0, code = root, few = bounds.coherent ? FEW_COHERENT_RAYS : FEW_RAYS;
+    int code = root, few = bounds.coherent ? FEW_COHERENT_RAYS : FEW_RAYS;
     for (;;) {
-        int next = 0;
-        uint next_bits = 0;
+        PacketVisit next = {0, 0, 0.f};
         if (LANES == 1 || (int)popcount(bits) <= few) {
             uint found = few_rays(nodes, leaves, code, &lanes, excluded, bits, any_hit, &hit);
             if (any_hit) open &= ~found;
@@ -109,42 +166,12 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* 
                 open &= ~maskBits(found);
             }
         } else {
-            global const BvhNode* node = IN_BUFFER(global const BvhNode, nodes, code);
-            RealLanes entry[LANE_GROUPS];
-            uint candidates =
-                bounds.coherent ? packet_cull(node, &bounds, entry) : present_children(node, entry);
-            Real limit = BOX_LIMIT(hit.rank, any_hit);
-            float next_entry = 0.f;
-            // The nearest child is next; the others wait in no particular order.
-            for (; candidates; candidates &= candidates - 1) {
-                int k = lowest_bit(candidates);
-                uint child_bits = maskBits(packet_overlap(node, k, ray, &bounds, limit)) & bits;
-                if (!child_bits) continue;
-                int child = node->child[k];
-                float e = entry[k / LANES].at[k % LANES];
-                if (!next_bits) {
-                    next = child, next_bits = child_bits, next_entry = e;
-                    continue;
-                }
-                int nearer = e < next_entry;
-                stack[top] = nearer ? next : child;
-                stack_bits[top] = nearer ? next_bits : child_bits;
-                stack_entry[top] = nearer ? next_entry : e;
-                top++;
-                next = nearer ? child : next;
-                next_bits = nearer ? child_bits : next_bits;
-                next_entry = nearer ? e : next_entry;
-            }
+            next = nearest_child(IN_BUFFER(global const BvhNode, nodes, code), ray, &bounds,
+                                 BOX_LIMIT(hit.rank, any_hit), bits, &stack);
         }
-        while (!next_bits) {
-            if (top == 0 || !open) return hit;
-            top--;
-            next = stack[top];
-            next_bits = stack_bits[top] & open;
-            if (!any_hit)
-                next_bits &= maskBits((Real)stack_entry[top] <= hit.rank * R(HIT_WIDENING));
-        }
-        code = next, bits = next_bits;
+        if (!next.bits) next = waiting_visit(&stack, open, hit.rank, any_hit);
+        if (!next.bits) return hit;
+        code = next.code, bits = next.bits;
     }
 }
 

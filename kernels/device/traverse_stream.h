@@ -6,6 +6,7 @@
 #ifndef PARHELION_TRAVERSE_STREAM_H
 #define PARHELION_TRAVERSE_STREAM_H
 
+#include "device/state.h"
 #include "device/traverse.h"
 
 // Walks under way at once.
@@ -25,34 +26,33 @@ typedef struct {
     TreeSizes sizes;
 } RayStream;
 
-#define STREAM_FIELD(s, name)                                                                      \
-    ((s)->state + (long)((s)->any_hit ? (int)shadow_##name : (int)path_##name) * (s)->stride)
-
-FN PacketRay stream_packet(const RayStream* s, int at) {
-#define STREAM_LANES(name) LOAD_REAL(STREAM_FIELD(s, name) + at)
-    return packet_ray(v3(STREAM_LANES(ox), STREAM_LANES(oy), STREAM_LANES(oz)),
-                      v3(STREAM_LANES(dx), STREAM_LANES(dy), STREAM_LANES(dz)), s->sizes);
+FN StatePlace stream_place(const RayStream* s, int entry) {
+    return state_place(s->state, s->stride, entry);
 }
 
 /// Starts a walk with the next ray; its entry is returned.
 FN int stream_take(RayStream* s, int begin, RayWalk* w, WalkStack* stack) {
     int entry = s->next++, lane = (entry - begin) % LANES;
-    if (lane == 0) s->lanes = packet_lanes(stream_packet(s, entry));
-    walk_start(w, stack, single_ray(&s->lanes, lane), STREAM_FIELD(s, t)[entry],
-               ((global const int*)STREAM_FIELD(s, excluded))[entry], s->any_hit);
+    StatePlace place = stream_place(s, entry);
+    if (lane == 0)
+        s->lanes =
+            packet_lanes(packet_ray(ray_at_origin(place), ray_at_direction(place), s->sizes));
+    walk_start(w, stack, single_ray(&s->lanes, lane), *state_word(place, ray_t),
+               *(global const int*)state_word(place, ray_excluded), s->any_hit);
     return entry;
 }
 
 FN void stream_answer(const RayStream* s, int entry, const RayWalk* w) {
     int hit = w->primitive != NO_PRIMITIVE;
+    StatePlace place = stream_place(s, entry);
     if (s->any_hit) {
-        ((global int*)s->state)[(long)shadow_blocked * s->stride + entry] = hit;
+        *(global int*)state_word(place, shadow_blocked) = hit;
         return;
     }
-    s->state[(long)path_t * s->stride + entry] = w->t;
-    s->state[(long)path_b1 * s->stride + entry] = w->b1;
-    s->state[(long)path_b2 * s->stride + entry] = w->b2;
-    ((global int*)s->state)[(long)path_primitive * s->stride + entry] = hit ? w->primitive : -1;
+    *state_word(place, path_t) = w->t;
+    *state_word(place, path_b1) = w->b1;
+    *state_word(place, path_b2) = w->b2;
+    *(global int*)state_word(place, path_primitive) = hit ? w->primitive : -1;
 }
 
 /// Fetches what a walk visits next ahead of its turn.

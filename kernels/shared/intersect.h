@@ -42,7 +42,7 @@ FN Real rank_of_end(Real t_max) { return t_max + t_max * (Real)BACK_DELAY; }
 
 /// A sphere or a disk, with its side of PRIMITIVE_FLIPPED.
 FN Intersection ranked(Intersection i, Mask flipped) {
-    i.back = (i.back & !flipped) | (!i.back & flipped);
+    i.back = (i.back & !flipped) | (flipped & !i.back);
     i.rank = sel(i.back, i.t + i.t * (Real)BACK_DELAY, i.t);
     return i;
 }

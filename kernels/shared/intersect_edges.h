@@ -136,8 +136,8 @@ FN TriangleEdges exact_edges(Corners v, RayShear ray) {
 
 FN TriangleEdges sel_edges(Mask m, TriangleEdges a, TriangleEdges b) {
     TriangleEdges e;
-    e.inside = (m & a.inside) | (!m & b.inside);
-    e.open = (m & a.open) | (!m & b.open);
+    e.inside = (m & a.inside) | (b.inside & !m);
+    e.open = (m & a.open) | (b.open & !m);
     e.u = sel(m, a.u, b.u);
     e.v = sel(m, a.v, b.v);
     e.w = sel(m, a.w, b.w);

@@ -4,21 +4,12 @@
 #define LANES_OF_int Int
 #define FIELD_LANES(type, name) LANES_OF_##type name;
 
-typedef struct {
-    PRIMITIVE_FIELDS(FIELD_LANES)
-} Primitive;
-typedef struct {
-    VERTEX_FIELDS(FIELD_LANES)
-} Vertex;
-typedef struct {
-    MATERIAL_FIELDS(FIELD_LANES)
-} Material;
-typedef struct {
-    LIGHT_FIELDS(FIELD_LANES)
-} Light;
-typedef struct {
-    LIGHT_NODE_FIELDS(FIELD_LANES)
-} LightNode;
+#define RECORD_LANES(Struct, FIELDS)                                                               \
+    typedef struct {                                                                               \
+        FIELDS(FIELD_LANES)                                                                        \
+    } Struct;
+RECORDS(RECORD_LANES)
+
 typedef struct {
     CAMERA_FIELDS(FIELD_LANES)
 } Camera;

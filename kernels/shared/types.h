@@ -32,8 +32,6 @@
     X(int, light)                                /* row of the light table, -1: does not emit */    \
     X(int, shape) X(int, index_in_shape)                                                           \
     X(int, flags)                                /* geometry kind | PRIMITIVE_* */
-typedef struct { PRIMITIVE_FIELDS(FIELD_DECLARE) } PrimitiveRecord;
-LAYOUT(PrimitiveRecord, 64);
 
 #define PRIMITIVE_KIND_MASK 3
 #define PRIMITIVE_FLIPPED 4  // the normal is reversed (sphere, disk)
@@ -47,8 +45,6 @@ LAYOUT(PrimitiveRecord, 64);
     X(float, n2x) X(float, n2y) X(float, n2z)                                                      \
     X(float, u0) X(float, v0) X(float, u1) X(float, v1) X(float, u2) X(float, v2)                  \
     X(float, unused)
-typedef struct { VERTEX_FIELDS(FIELD_DECLARE) } VertexRecord;
-LAYOUT(VertexRecord, 64);
 
 // -------------------------------------------------------------------------------------- materials and lights
 // Dielectrics keep their index in (er, eg, eb, kr, kg, kb): eta, 1/eta, and the high and low parts of eta^2 - 1 seen
@@ -62,8 +58,6 @@ LAYOUT(VertexRecord, 64);
     X(float, kr) X(float, kg) X(float, kb)    /* conductor k */                                    \
     X(float, alpha_u) X(float, alpha_v)                                                            \
     X(int, distribution)                      /* bit 0: 0 GGX, 1 Beckmann; above: 1 + its energy table, 0: none */
-typedef struct { MATERIAL_FIELDS(FIELD_DECLARE) } MaterialRecord;
-LAYOUT(MaterialRecord, 64);
 
 // A table of the share of light that single scattering sends on: a row of cosines for each azimuth.
 #define ENERGY_COSINES 129
@@ -79,8 +73,6 @@ LAYOUT(MaterialRecord, 64);
     X(float, cx) X(float, cy) X(float, cz)                                                         \
     X(float, r) X(float, g) X(float, b)                                                            \
     X(float, pmf) X(float, area) X(float, extra)
-typedef struct { LIGHT_FIELDS(FIELD_DECLARE) } LightRecord;
-LAYOUT(LightRecord, 64);
 
 // A node of the light tree: lights within a sphere, whose axes lie in a cone. Siblings stand side by side, the left one at an
 // even place; nodes 0 and 1 are the children of the root.
@@ -93,8 +85,15 @@ LAYOUT(LightRecord, 64);
     X(int, child)                             /* the left of its children; a leaf: ~light row */   \
     X(int, parent)                            /* -1: the root */                                    \
     X(int, unused0) X(int, unused1) X(int, unused2) X(int, unused3)
-typedef struct { LIGHT_NODE_FIELDS(FIELD_DECLARE) } LightNodeRecord;
-LAYOUT(LightNodeRecord, 64);
+
+// All records: the struct of lanes, its fields.
+#define RECORDS(X)                                                                                 \
+    X(Primitive, PRIMITIVE_FIELDS) X(Vertex, VERTEX_FIELDS) X(Material, MATERIAL_FIELDS)           \
+    X(Light, LIGHT_FIELDS) X(LightNode, LIGHT_NODE_FIELDS)
+#define RECORD_DECLARE(Struct, FIELDS)                                                             \
+    typedef struct { FIELDS(FIELD_DECLARE) } Struct##Record;                                       \
+    LAYOUT(Struct##Record, 64);
+RECORDS(RECORD_DECLARE)
 
 // Sampling a reconstruction filter: one of its equally likely bins along one axis. It starts at x (pixels from the centre), ends
 // where the next one starts, and its samples have this weight (negative in a negative lobe).

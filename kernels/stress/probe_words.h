@@ -57,18 +57,14 @@ FN Real mask_word(Mask m) { return sel(m, R(1.), R(0.)); }
 // Records from words, by the lists of types.h.
 #define IN_float(x) (x)
 #define IN_int(x) wordInt(x)
-#define RECORD_INPUT(Struct, FIELDS, TAKE)                                                         \
+#define RECORD_INPUT(Struct, FIELDS)                                                               \
     FN Struct in_##Struct(ProbeIn i, int at) {                                                     \
         Struct s;                                                                                  \
-        FIELDS(TAKE)                                                                               \
+        FIELDS(TAKE_FIELD)                                                                         \
         return s;                                                                                  \
     }
 #define TAKE_FIELD(type, name) s.name = IN_##type(i.w[at++]);
-RECORD_INPUT(Primitive, PRIMITIVE_FIELDS, TAKE_FIELD)
-RECORD_INPUT(Vertex, VERTEX_FIELDS, TAKE_FIELD)
-RECORD_INPUT(Material, MATERIAL_FIELDS, TAKE_FIELD)
-RECORD_INPUT(Light, LIGHT_FIELDS, TAKE_FIELD)
-RECORD_INPUT(LightNode, LIGHT_NODE_FIELDS, TAKE_FIELD)
-RECORD_INPUT(Camera, CAMERA_FIELDS, TAKE_FIELD)
+RECORDS(RECORD_INPUT)
+RECORD_INPUT(Camera, CAMERA_FIELDS)
 
 // NOLINTEND(modernize-use-using, readability-identifier-naming)

@@ -39,6 +39,17 @@ TEST_CASE("Every stage compiles with the options that save time", "[device]") {
     }
 }
 
+TEST_CASE("Each stage compiles by itself", "[device]") {
+    TestDevice d;
+    for (const char* stage : stage_names) {
+        CAPTURE(stage);
+        ProgramSource source =
+            program_source({std::string(stage) + ".cl"}, {d.device.lanes(), FeatureSet{}, false});
+        cl::Program program(d.context, source.text);
+        CHECK_NOTHROW(program.build({d.device.handle}, source.options.c_str()));
+    }
+}
+
 TEST_CASE("The options that save time change no bit", "[device]") {
     Device device = choose_device("");
     std::vector<float> quick = rendered(device);

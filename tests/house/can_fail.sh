@@ -71,6 +71,9 @@ must_find files "opens with a comment" 'int x;' host/new.cpp
 must_find files "opens with a comment" 'int x;' kernels/new.cl
 must_find files "opens with a comment" 'set -e' tests/new.sh
 must_find files "at most 450" "$(printf '//\\n%.0s' {1..450})" host/new.cpp
+must_find files "at most 60" "int f(int x) {\n$(printf '    x++;\\n%.0s' {1..59})}" host/scene/code.cpp
+must_find files "at most 60" "struct S {\n    int f(int x)\n        const {\n$(printf '        x++;\\n%.0s' {1..58})    }\n};" host/scene/code.cpp
+must_find files "at most 60" "kernel void f(int x) {\n    if (x) {\n$(printf '        x++;\\n%.0s' {1..57})    }\n}" kernels/shade.cl
 must_find files "standard streams" 'fmt::print(stderr, "x");' host/scene/code.cpp
 must_find files "standard streams" 'fmt::print("x");' host/bvh/code.cpp
 must_find files "standard streams" 'std::cout << 1;' host/cl/code.cpp

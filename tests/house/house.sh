@@ -142,6 +142,26 @@ check_numerics() {
 
 # ------------------------------------------------------------------------------------------ files
 
+# long_functions FILE...: product functions of more than 60 lines. By indentation, which clang-format sees to: a function
+# begins where a statement does, at the margin or in a struct, and ends with a brace in the same column.
+long_functions() {
+    (($# == 0)) || awk '
+        FNR == 1 { in_struct = 0; begin[0] = begin[4] = 0 }
+        function starts(column) { begin[column] = FNR; text[column] = $0 }
+        function ends(column) {
+            lines = FNR - begin[column] + 1
+            if (begin[column] && lines > 60 && text[column] ~ /\(/)
+                print FILENAME ":" begin[column] ": " lines " lines"
+            begin[column] = 0
+        }
+        /^}/ { ends(0); in_struct = 0; next }
+        /^    }/ { if (in_struct) ends(4); next }
+        /^(struct|class|union|enum|template<.*> *(struct|class)) .*[^;]$/ { in_struct = 1; begin[0] = 0; next }
+        /^(namespace|extern|#|\/\/|private:|public:|typedef|using)/ { next }
+        /^[A-Za-z_]/ { starts(0); next }
+        in_struct && /^    [A-Za-z_~\[]/ { starts(4) }' "$@"
+}
+
 check_files() {
     local file first lines folder
     # They can be closed, full or a pipe that nobody reads; results must be checked, messages must not throw.
@@ -150,6 +170,10 @@ check_files() {
         grep -E '\bstd(out|err)\b|\bcout\b|\bcerr\b|\bclog\b|fmt::print\(|\bf?printf\(|\bputs\(|STD(OUT|ERR)_FILENO' |
         grep -vE '^host/(child_process|progress|cl/driver_watch)\.cpp:.*STD(OUT|ERR)_FILENO' |
         offend "host/streams.h alone writes to standard streams" || true
+    for folder in host kernels; do
+        files_in "$folder" '*.h' '*.cpp' '*.cl'
+        long_functions "${found[@]}" | offend "a function has at most 60 lines"
+    done
     for folder in host kernels tests benchmarks; do
         files_in "$folder" '*.h' '*.cpp' '*.cl' '*.sh' '*.py' '*.cmake' CMakeLists.txt
         for file in "${found[@]}"; do

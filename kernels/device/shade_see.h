@@ -1,0 +1,110 @@
+// What a path sees where it has got to: light of the surface or the sky there, whether its pixel is
+// covered, and the views.
+#ifndef PARHELION_SHADE_SEE_H
+#define PARHELION_SHADE_SEE_H
+
+#include "device/camera_lanes.h"
+#include "device/coverage.h"
+#include "device/light_table.h"
+#include "device/notes.h"
+#include "device/shade_work.h"
+
+/// Radiance of the sky for lanes that missed everything, weighted against next event estimation;
+/// nothing for the hidden ones.
+FN vec3 sky_emission(ShadeWork w, Path path, Mask hidden) {
+    Light sky = load_Light(w.scene.lights, (Int)w.params->constant_light);
+    vec3 radiance = light_radiance(sky);
+    NOTE(sky, radiance);
+    Real weight = R(1.);
+    if (HAS(next_event)) {
+        Real sampled = emitter_constant_pdf(sky, path.origin, path.direction, path.origin);
+        weight = power_heuristic(path.pdf, sampled);
+        NOTE(emission_weight, weight);
+    }
+    if (HAS(hide_emitters)) weight = sel(hidden, R(0.), weight);
+    return scale3(radiance, weight);
+}
+
+/// Radiance of the emitters the lanes hit, weighted against next event estimation.
+FN vec3 surface_emission(ShadeWork w, PathVertex v) {
+    Mask emits = v.hit & (v.primitive.light >= 0);
+    vec3 emitted = splat3(R(0.));
+    if (!someLane(emits)) return emitted;
+    Int row = (Int)0;
+    if (HAS(several_lights)) row = sel(emits, v.primitive.light, row);
+    Light light = load_Light(w.scene.lights, row);
+    // Next event estimation has no part in what the camera or a mirror sees.
+    Mask weighted = emits & finiteR(v.path.pdf);
+    if (HAS(next_event))
+        light = light_picked_with(light, light_pmf(w.scene.light_nodes, w.scene.light_leaves,
+                                                   v.path.origin, row, weighted));
+    else
+        weighted = emits & !emits;
+    EmitterHit e = emitter_hit(light, v.path.origin, v.path.direction, v.surface.p, weighted);
+    NOTE(emission, e);
+    emitted = sel3(emits, e.radiance, emitted);
+    if (someLane(weighted)) {
+        Real weight = power_heuristic(v.path.pdf, e.pdf);
+        NOTE(emission_weight, weight);
+        emitted = scale3(emitted, sel(weighted, weight, R(1.)));
+    }
+    return emitted;
+}
+
+/// Lanes that must not see the sky: hide_emitters keeps it from the camera.
+FN Mask sky_hidden(ShadeWork w, PathVertex v) {
+    if (HAS(hide_emitters) && HAS(straight_through)) return uncovered(w.results, v);
+    if (w.depth == 0) return v.active;
+    return v.active & !v.active;
+}
+
+/// A view of geometry in place of light.
+FN vec3 view_of(ShadeWork w, PathVertex v) {
+    vec3 seen = splat3(R(0.));
+    if (HAS(view_normals)) seen = scale3(add3(v.surface.ns, splat3(R(1.))), R(.5));
+    if (HAS(view_depth))
+        seen = splat3(camera_distance(camera_lanes(w.params->camera), v.path.origin, v.path.t));
+    return sel3(v.hit, seen, splat3(R(0.)));
+}
+
+FN vec3 seen_light(ShadeWork w, PathVertex v) {
+    vec3 seen = splat3(R(0.));
+    if (HAS(view_normals) || HAS(view_depth)) seen = view_of(w, v);
+    if (!HAS(emission)) return seen;
+    seen = add3(seen, surface_emission(w, v));
+    if (HAS(emitter_constant)) {
+        Mask sky = v.active & !v.hit, hidden = sky_hidden(w, v);
+        if (someLane(sky)) seen = sel3(sky, sky_emission(w, v.path, hidden), seen);
+    }
+    return seen;
+}
+
+/// The lanes' pixels are covered by what they have hit, or by a sky that counts.
+FN void see_coverage(ShadeWork w, PathVertex v, vec3 seen) {
+    if (HAS(straight_through)) {
+        Mask covered = v.hit & (max_component(seen) != R(0.));
+        if (w.params->sky_covers) covered = v.active;
+        cover(w.results, v, covered);
+    } else if (w.depth == 0) {
+        Mask covered = v.hit;
+        if (w.params->sky_covers) covered = v.active;
+        add_result(w.results, result_alpha, v.path.slot, R(1.), maskBits(covered));
+    }
+}
+
+/// Writes: results (light, alpha).
+FN void see(ShadeWork w, PathVertex v) {
+    vec3 seen = seen_light(w, v);
+    Mask bad_emission = v.active & !v.active;
+    if (HAS(emission) || w.depth == 0) {
+        vec3 gathered = mul3(v.path.throughput, seen);
+        bad_emission = v.active & (nought3(gathered) != R(0.));
+        uint bits = maskBits(v.active & (max_component(seen) != R(0.)));
+        if (bits) add_result3(w.results, result_r, v.path.slot, gathered, bits);
+    }
+    see_coverage(w, v, seen);
+    mark_bad(w.results, v.path.slot, v.bad_hit, fault_hit, w.depth);
+    mark_bad(w.results, v.path.slot, bad_emission, fault_emission, w.depth);
+}
+
+#endif

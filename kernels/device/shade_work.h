@@ -1,0 +1,19 @@
+// What the steps of shading work with.
+#ifndef PARHELION_SHADE_WORK_H
+#define PARHELION_SHADE_WORK_H
+
+#include "device/results.h"
+
+#define SCENE_MEMBER(type, name) global const type* name;
+typedef struct {
+    SCENE_BUFFERS(SCENE_MEMBER)
+} SceneTables;
+
+typedef struct {
+    SceneTables scene;
+    const RenderParams* params;
+    Results results;
+    int depth; // of the vertices: how many lie before them
+} ShadeWork;
+
+#endif
