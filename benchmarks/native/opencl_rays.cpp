@@ -27,6 +27,7 @@ void lay_out(const Ray& r, float* at, std::size_t stride) {
         at[(ray_direction + axis) * stride] = r.direction[axis];
     }
     at[ray_t * stride] = r.t_max;
+    at[ray_excluded * stride] = as_float(r.excluded);
 }
 
 } // namespace
@@ -106,7 +107,6 @@ void OpenClTracer::fill_paths(std::span<const Ray> rays) {
         const Ray& r = rays[i];
         float* at = state_.data() + entry(sizes_, i);
         lay_out(r, at, stride);
-        at[path_excluded * stride] = as_float(r.excluded);
         at[path_slot * stride] = as_float(static_cast<int>(i));
     }
     device_.queue.enqueueWriteBuffer(work_.path_state.handle(), CL_TRUE, 0,
@@ -123,7 +123,6 @@ void OpenClTracer::fill_shadows(std::span<const Ray> rays) {
         lay_out(r, at, stride);
         for (int channel = 0; channel < 3; channel++)
             at[(shadow_contribution + channel) * stride] = 1;
-        at[shadow_excluded * stride] = as_float(r.excluded);
         at[shadow_slot * stride] = as_float(static_cast<int>(i));
     }
     device_.queue.enqueueWriteBuffer(work_.shadow_state.handle(), CL_TRUE, 0,

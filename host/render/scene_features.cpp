@@ -29,6 +29,10 @@ void decide_by_count(FeatureDecisions& out, Feature f, const Records& records, c
     out.decide(f, count > 0, fmt::format("{} of {} {}", count, records.size(), name));
 }
 
+void decide_by_request(FeatureDecisions& out, Feature f, bool asked) {
+    out.decide(f, asked, asked ? "asked for" : "not asked for");
+}
+
 template<std::size_t N, class Records, class KindOf>
 void decide_kinds(FeatureDecisions& out, const std::array<Feature, N>& features,
                   const Records& records, const char* name, KindOf kind_of) {
@@ -112,7 +116,7 @@ void decide_lights(const DeviceScene& records, FeatureDecisions& out) {
 
 /// What of light transport an integrator asks for, and the scene has.
 struct Transport {
-    bool lit, meetable, several, next_event, through, sees, scatters, roulette;
+    bool asked, lit, emission, several, next_event, through, sees, scatters, roulette;
     std::string found;
 };
 
@@ -124,13 +128,15 @@ std::string edges(int longest) {
 Transport transport(const Integrator& integrator, const DeviceScene& records,
                     const FeatureSet& on) {
     Transport t{};
-    if (integrator.kind != IntegratorKind::path && integrator.kind != IntegratorKind::direct) {
+    t.asked = integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct;
+    if (!t.asked) {
         t.found = "no light transport is asked for";
         return t;
     }
     t.lit = !records.lights.empty();
     int longest = integrator.kind == IntegratorKind::direct ? 2 : integrator.max_depth;
-    t.meetable = !(on & meetable_emitters).empty() && longest != 0;
+    bool meetable = !(on & meetable_emitters).empty();
+    t.emission = meetable && longest != 0;
     t.several = longest < 0 || longest >= 2;
     t.next_event = t.lit && t.several && integrator.emitter_samples;
     // As in Mitsuba 3: what lets rays straight through is a surface like others to `direct`.
@@ -138,8 +144,7 @@ Transport transport(const Integrator& integrator, const DeviceScene& records,
                 std::any_of(records.materials.begin(), records.materials.end(), lets_through);
     // After the last scattering only emission can be met: with point lights alone nothing is. But
     // what lies behind a surface that lets rays through covers the pixel, lit or not.
-    t.sees =
-        !(on & meetable_emitters).empty() || (t.lit && (longest < 0 || longest >= 3)) || t.through;
+    t.sees = meetable || (t.lit && (longest < 0 || longest >= 3)) || t.through;
     t.scatters = t.several && integrator.bsdf_samples && t.sees;
     t.roulette = t.scatters && (longest < 0 || longest > integrator.rr_depth);
     t.found = fmt::format("{} lights, {}", records.lights.size(), edges(longest));
@@ -150,7 +155,7 @@ void decide_transport(const Scene& scene, const DeviceScene& records, FeatureDec
     const Integrator& integrator = scene.integrator;
     Transport t = transport(integrator, records, out.on());
     const char* sampled = integrator.emitter_samples ? "sampled" : "not sampled";
-    out.decide(feature_emission, t.meetable, t.found);
+    out.decide(feature_emission, t.emission, t.found);
     out.decide(feature_next_event, t.next_event,
                fmt::format("{}, lights are {}", t.found, sampled));
     out.decide(feature_light_tree, t.next_event && !records.light_tree.nodes.empty(),
@@ -161,10 +166,7 @@ void decide_transport(const Scene& scene, const DeviceScene& records, FeatureDec
     out.decide(feature_scattering, t.scatters, t.found);
     out.decide(feature_russian_roulette, t.roulette,
                fmt::format("{}, roulette from edge {} on", t.found, integrator.rr_depth));
-    bool asked =
-        integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct;
-    out.decide(feature_hide_emitters, asked && integrator.hide_emitters,
-               integrator.hide_emitters ? "asked for" : "not asked for");
+    decide_by_request(out, feature_hide_emitters, t.asked && integrator.hide_emitters);
     bool shaded = out.has(feature_vertex_normals) && (t.next_event || t.scatters);
     std::string normals =
         shading_normals_names[static_cast<std::size_t>(integrator.shading_normals)];
@@ -197,14 +199,9 @@ void decide_film(const Scene& scene, FeatureDecisions& out) {
     std::string filter = box ? "box filter" : fmt::format("a filter that reaches {} pixels", reach);
     out.decide(feature_filter_splatting, !box && reach > 0, filter);
     out.decide(feature_filter_sampling, !box && reach == 0, filter);
-    auto view = [&](Feature f, IntegratorKind kind) {
-        bool on = integrator.kind == kind;
-        out.decide(f, on, on ? "asked for" : "not asked for");
-    };
-    view(feature_view_normals, IntegratorKind::normals);
-    view(feature_view_depth, IntegratorKind::depth);
-    out.decide(feature_moments, integrator.second_moment,
-               integrator.second_moment ? "asked for" : "not asked for");
+    decide_by_request(out, feature_view_normals, integrator.kind == IntegratorKind::normals);
+    decide_by_request(out, feature_view_depth, integrator.kind == IntegratorKind::depth);
+    decide_by_request(out, feature_moments, integrator.second_moment);
     decide_by_count(out, feature_variance, integrator.aovs, "layers", is_film_aov);
     decide_by_count(out, feature_aovs, integrator.aovs, "layers",
                     [](const AovRequest& a) { return !is_film_aov(a); });

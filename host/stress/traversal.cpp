@@ -83,13 +83,13 @@ struct Traversal::Work {
                                 r.direction[1], r.direction[2], r.t_max};
         for (std::size_t k = 0; k < std::size(values); k++)
             state[k * stride + i] = values[k];
+        state[ray_excluded * stride + i] = std::bit_cast<float>(r.excluded);
     }
 
     static Work of_paths(Rays rays, const Sizes& s) {
         Work w{std::vector<float>(path_word_count * s.stride()), std::vector<float>(1)};
         for (std::size_t i = 0; i < rays.size(); i++) {
             put_ray(w.state, s.stride(), i, rays[i]);
-            w.state[path_excluded * s.stride() + i] = std::bit_cast<float>(rays[i].excluded);
         }
         return w;
     }
@@ -103,7 +103,6 @@ struct Traversal::Work {
                 w.state[(shadow_contribution + channel) * s.stride() + i] =
                     static_cast<float>(1 << channel);
             w.state[shadow_slot * s.stride() + i] = std::bit_cast<float>(static_cast<int>(i));
-            w.state[shadow_excluded * s.stride() + i] = std::bit_cast<float>(rays[i].excluded);
         }
         return w;
     }
