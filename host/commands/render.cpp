@@ -12,10 +12,10 @@
 #include "host/image/output.h"
 #include "host/image/png.h"
 #include "host/json_text.h"
-#include "host/oracle/host_render.h"
 #include "host/progress.h"
 #include "host/scene/load.h"
 #include "host/streams.h"
+#include "host/twin/host_render.h"
 #include "parhelion_version.h"
 
 #include <fmt/format.h>

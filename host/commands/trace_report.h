@@ -1,8 +1,8 @@
 // What `parhelion render --trace` prints.
 #pragma once
 
-#include "host/oracle/sample_trace.h"
 #include "host/scene/scene.h"
+#include "host/twin/sample_trace.h"
 
 #include <nlohmann/json_fwd.hpp>
 

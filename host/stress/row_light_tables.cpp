@@ -2,13 +2,13 @@
 // Shares against exact sums, draws against shares, densities against those stated.
 #include "host/stress/rows.h"
 
-#include "host/oracle/device_functions.h"
 #include "host/parallel.h"
 #include "host/render/filter_table.h"
 #include "host/scene/mitsuba/scene_builder.h"
 #include "host/scene/mitsuba/xml_file.h"
 #include "host/stress/every_kind_scene.h"
 #include "host/stress/statistics.h"
+#include "host/twin/device_functions.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

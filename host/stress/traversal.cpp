@@ -2,8 +2,8 @@
 #include "host/stress/traversal.h"
 
 #include "host/cl/source.h"
-#include "host/oracle/wave_memory.h"
 #include "host/parallel.h"
+#include "host/twin/wave_memory.h"
 
 #include <sys/types.h> // ulong, as the kernels call it
 

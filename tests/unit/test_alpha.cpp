@@ -2,7 +2,7 @@
 // ones, lights and skies one behind the other. The figures are those of Mitsuba 3.9.1 (scalar_rgb),
 // measured but for the rows tt, nt, tn and n0, which follow the rule of the others; R and alpha of
 // a path are its own, so that noise is that of Fresnel's share alone.
-#include "host/oracle/sample_trace.h"
+#include "host/twin/sample_trace.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/host_render.h"
 

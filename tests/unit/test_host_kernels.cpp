@@ -1,6 +1,6 @@
 // The kernels as C++, in small: what the sanitizers see of them. That their images are the device's
 // is for tests/render.
-#include "host/oracle/sample_trace.h"
+#include "host/twin/sample_trace.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/host_render.h"
 

@@ -1,5 +1,5 @@
 // Scenes of nothing and lights of no power: tables without rows, and features that go by the rows.
-#include "host/oracle/sample_trace.h"
+#include "host/twin/sample_trace.h"
 #include "tests/support/host_render.h"
 #include "tests/support/two_of_every.h"
 

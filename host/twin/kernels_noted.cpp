@@ -1,10 +1,10 @@
 // The shade kernel as C++ with a listener (kernels/device/notes.h), for a path to be told vertex by
 // vertex.
-#include "host/oracle/run_stage.h"
-#include "host/oracle/shade_notes.h"
-#include "host/oracle/work_item.h"
+#include "host/twin/run_stage.h"
+#include "host/twin/shade_notes.h"
+#include "host/twin/work_item.h"
 
-#include "host/oracle/opencl_names.h"
+#include "host/twin/opencl_names.h"
 
 namespace parhelion {
 namespace {
@@ -64,4 +64,4 @@ ShadeNotes shade_noted(const HostLaunch<float>& launch, int depth) {
 
 } // namespace parhelion
 
-#include "host/oracle/opencl_names_end.h"
+#include "host/twin/opencl_names_end.h"

@@ -1,9 +1,9 @@
 // One sample of an image, vertex by vertex.
 #pragma once
 
-#include "host/oracle/shade_notes.h"
 #include "host/render/bad_samples.h"
 #include "host/scene/scene.h"
+#include "host/twin/shade_notes.h"
 
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 // Bounds of what the kernels touch on the host.
-#include "host/oracle/work_item.h"
+#include "host/twin/work_item.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // Rendering a scene with the kernels compiled as C++: slowly, and without a device.
-#include "host/oracle/host_render.h"
+#include "host/twin/host_render.h"
 
 #include "host/clock.h"
-#include "host/oracle/wave_memory.h"
 #include "host/parallel.h"
 #include "host/render/film_image.h"
 #include "host/render/render_params.h"
 #include "host/render/wave_schedule.h"
+#include "host/twin/wave_memory.h"
 
 #include <fmt/format.h>
 

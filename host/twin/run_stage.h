@@ -1,8 +1,8 @@
 // Running one stage of the kernels that are compiled as C++, in whichever precision.
 #pragma once
 
-#include "host/oracle/wave_memory.h"
-#include "host/oracle/work_item.h"
+#include "host/twin/wave_memory.h"
+#include "host/twin/work_item.h"
 
 #include <array>
 

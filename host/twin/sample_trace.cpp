@@ -1,5 +1,5 @@
 // One sample of an image, vertex by vertex: a pool of one path, looked at between the stages.
-#include "host/oracle/sample_trace.h"
+#include "host/twin/sample_trace.h"
 
 #include "host/render/film_image.h"
 #include "host/render/render_params.h"

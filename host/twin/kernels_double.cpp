@@ -3,13 +3,13 @@
 //
 // Records are the device's, read exactly; random numbers are the same 24 bits. So a path takes the
 // way it takes in single precision, but where rounding decides.
-#include "host/oracle/run_stage.h"
-#include "host/oracle/work_item.h"
+#include "host/twin/run_stage.h"
+#include "host/twin/work_item.h"
 
 #include <array>
 #include <functional>
 
-#include "host/oracle/opencl_names.h"
+#include "host/twin/opencl_names.h"
 
 namespace parhelion {
 namespace {
@@ -23,7 +23,7 @@ struct Kernels : WorkItem {
 // And of tracing:
 #include "device/traversal_ray.h"
 
-#include "host/oracle/plain_walk.h"
+#include "host/twin/plain_walk.h"
 #undef PARHELION_REAL
 #undef PARHELION_REAL_IS_DOUBLE
 
@@ -71,4 +71,4 @@ void run_work_item(Stage stage, const HostLaunch<double>& launch, int depth, int
 
 } // namespace parhelion
 
-#include "host/oracle/opencl_names_end.h"
+#include "host/twin/opencl_names_end.h"

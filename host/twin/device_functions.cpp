@@ -1,8 +1,8 @@
 // Functions of the kernels that read tables, as C++ in single precision.
-#include "host/oracle/device_functions.h"
-#include "host/oracle/work_item.h"
+#include "host/twin/device_functions.h"
+#include "host/twin/work_item.h"
 
-#include "host/oracle/opencl_names.h"
+#include "host/twin/opencl_names.h"
 
 namespace parhelion {
 namespace {
@@ -42,4 +42,4 @@ FilterOffset sample_filter(std::span<const FilterBin> table, float u) {
 
 } // namespace parhelion
 
-#include "host/oracle/opencl_names_end.h"
+#include "host/twin/opencl_names_end.h"

@@ -1,7 +1,7 @@
 // What the functions that the shade kernel calls at one vertex of a path have answered.
 #pragma once
 
-#include "host/oracle/wave_memory.h"
+#include "host/twin/wave_memory.h"
 
 #include <array>
 #include <optional>

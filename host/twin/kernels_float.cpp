@@ -1,8 +1,8 @@
 // The kernels as C++: the text that OpenCL compiles, for one lane, in single precision.
-#include "host/oracle/run_stage.h"
-#include "host/oracle/work_item.h"
+#include "host/twin/run_stage.h"
+#include "host/twin/work_item.h"
 
-#include "host/oracle/opencl_names.h"
+#include "host/twin/opencl_names.h"
 
 namespace parhelion {
 namespace {
@@ -31,4 +31,4 @@ void run_work_item(Stage stage, const HostLaunch<float>& launch, int depth, int 
 
 } // namespace parhelion
 
-#include "host/oracle/opencl_names_end.h"
+#include "host/twin/opencl_names_end.h"
