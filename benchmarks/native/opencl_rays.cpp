@@ -1,8 +1,8 @@
 // Our stage kernels `intersect` and `shadow` as a tracer.
 #include "benchmarks/native/opencl_rays.h"
 
-#include "host/render/kernel_arguments.h"
-#include "host/render/scene_features.h"
+#include "host/flatten/scene_features.h"
+#include "host/waves/kernel_arguments.h"
 
 #include <sys/types.h> // ulong, as the kernels call it
 

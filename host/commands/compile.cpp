@@ -4,10 +4,10 @@
 #include "host/commands/cache_help.h"
 #include "host/commands/render.h"
 #include "host/error.h"
-#include "host/render/device_scene.h"
-#include "host/render/scene_features.h"
-#include "host/render/stage_programs.h"
+#include "host/flatten/device_scene.h"
+#include "host/flatten/scene_features.h"
 #include "host/scene/load.h"
+#include "host/waves/stage_programs.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/commands/command_line.h"
-#include "host/render/render_device.h"
+#include "host/waves/render_device.h"
 
 namespace parhelion {
 

@@ -3,9 +3,9 @@
 
 #include "host/commands/render.h"
 #include "host/error.h"
+#include "host/flatten/device_scene.h"
+#include "host/flatten/kind_names.h"
 #include "host/json_text.h"
-#include "host/render/device_scene.h"
-#include "host/render/kind_names.h"
 #include "host/render/report.h"
 #include "host/scene/load.h"
 #include "host/streams.h"

@@ -1,6 +1,6 @@
 // Command-line values that replace the scene's.
 #include "host/commands/render.h"
-#include "host/render/filter_table.h"
+#include "host/flatten/filter_table.h"
 #include "host/scene/limits.h"
 
 #include <fmt/format.h>

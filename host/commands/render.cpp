@@ -13,9 +13,9 @@
 #include "host/image/png.h"
 #include "host/json_text.h"
 #include "host/progress.h"
+#include "host/render/host_render.h"
 #include "host/scene/load.h"
 #include "host/streams.h"
-#include "host/twin/host_render.h"
 #include "parhelion_version.h"
 
 #include <fmt/format.h>

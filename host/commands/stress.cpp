@@ -7,11 +7,11 @@
 #include "host/image/distinct_files.h"
 #include "host/image/output.h"
 #include "host/json_text.h"
-#include "host/render/render_device.h"
 #include "host/scene/limits.h"
 #include "host/streams.h"
 #include "host/stress/catalogue.h"
 #include "host/stress/report.h"
+#include "host/waves/render_device.h"
 
 #include <fmt/format.h>
 

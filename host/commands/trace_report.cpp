@@ -1,7 +1,7 @@
 // What `parhelion render --trace` prints.
 #include "host/commands/trace_report.h"
-#include "host/render/film_image.h"
-#include "host/render/kind_names.h"
+#include "host/film/film_image.h"
+#include "host/flatten/kind_names.h"
 #include "host/render/report.h"
 
 #include <nlohmann/json.hpp>

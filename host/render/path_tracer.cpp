@@ -3,10 +3,10 @@
 
 #include "host/clock.h"
 #include "host/error.h"
-#include "host/render/film_image.h"
-#include "host/render/render_params.h"
-#include "host/render/scene_features.h"
-#include "host/render/wave_schedule.h"
+#include "host/film/film_image.h"
+#include "host/flatten/scene_features.h"
+#include "host/waves/render_params.h"
+#include "host/waves/wave_schedule.h"
 
 #include <fmt/format.h>
 

@@ -1,13 +1,13 @@
 // Rendering a scene on a device: the wavefront loop.
 #pragma once
 
+#include "host/flatten/device_scene.h"
 #include "host/image/image.h"
 #include "host/progress.h"
-#include "host/render/device_scene.h"
-#include "host/render/pipeline.h"
-#include "host/render/render_device.h"
 #include "host/render/report.h"
 #include "host/scene/scene.h"
+#include "host/waves/pipeline.h"
+#include "host/waves/render_device.h"
 
 namespace parhelion {
 

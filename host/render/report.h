@@ -1,9 +1,9 @@
 // What a render did and what it cost, for people and for scripts.
 #pragma once
 
+#include "host/film/bad_samples.h"
+#include "host/flatten/scene_frame.h"
 #include "host/image/misfits.h"
-#include "host/render/bad_samples.h"
-#include "host/render/scene_frame.h"
 
 #include <nlohmann/json_fwd.hpp>
 

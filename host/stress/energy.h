@@ -2,7 +2,7 @@
 // pointers to buffers.
 #pragma once
 
-#include "host/render/energy_table.h"
+#include "host/flatten/energy_table.h"
 #include "host/stress/materials.h"
 
 namespace parhelion::stress {

@@ -1,7 +1,7 @@
 // The light tree as it should be, in double: what a choice by its nodes gives every light.
 #pragma once
 
-#include "host/render/device_scene.h"
+#include "host/flatten/device_scene.h"
 
 #include <vector>
 

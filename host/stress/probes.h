@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/cl/buffer.h"
-#include "host/render/render_device.h"
 #include "host/shared_maths.h"
+#include "host/waves/render_device.h"
 
 #include <bit>
 #include <span>

@@ -2,10 +2,10 @@
 #include "host/stress/rows.h"
 
 #include "host/image/metrics.h"
+#include "host/render/host_render.h"
 #include "host/scene/mitsuba/transforms.h"
 #include "host/stress/every_kind_scene.h"
 #include "host/stress/row_images.h"
-#include "host/twin/host_render.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -2,8 +2,8 @@
 // Shares against exact sums, draws against shares, densities against those stated.
 #include "host/stress/rows.h"
 
+#include "host/flatten/filter_table.h"
 #include "host/parallel.h"
-#include "host/render/filter_table.h"
 #include "host/scene/mitsuba/scene_builder.h"
 #include "host/scene/mitsuba/xml_file.h"
 #include "host/stress/every_kind_scene.h"

@@ -2,8 +2,8 @@
 // and between them: what it returns is finite, and has a density unless there is no sample.
 #include "host/stress/rows.h"
 
-#include "host/render/filter_table.h"
-#include "host/render/kind_names.h"
+#include "host/flatten/filter_table.h"
+#include "host/flatten/kind_names.h"
 #include "host/twin/device_functions.h"
 
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "host/progress.h"
-#include "host/render/render_device.h"
 #include "host/stress/check.h"
 #include "host/stress/traversal.h"
+#include "host/waves/render_device.h"
 
 #include <cstdint>
 #include <functional>

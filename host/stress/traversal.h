@@ -4,9 +4,9 @@
 
 #include "host/bvh/bvh.h"
 #include "host/cl/buffer.h"
-#include "host/render/device_scene.h"
-#include "host/render/render_device.h"
-#include "host/render/stages.h"
+#include "host/flatten/device_scene.h"
+#include "host/waves/render_device.h"
+#include "host/waves/stages.h"
 
 #include <array>
 #include <cstdint>

@@ -9,7 +9,7 @@
 
 #include "host/stress/energy.h"
 
-#include "host/render/single_scattering.h" // last: its macros have short names
+#include "host/flatten/single_scattering.h" // last: its macros have short names
 
 namespace parhelion::stress {
 

@@ -2,7 +2,7 @@
 // alone.
 #pragma once
 
-#include "host/render/device_scene.h"
+#include "host/flatten/device_scene.h"
 
 #include <array>
 #include <span>

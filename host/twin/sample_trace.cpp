@@ -1,8 +1,8 @@
 // One sample of an image, vertex by vertex: a pool of one path, looked at between the stages.
 #include "host/twin/sample_trace.h"
 
-#include "host/render/film_image.h"
-#include "host/render/render_params.h"
+#include "host/film/film_image.h"
+#include "host/waves/render_params.h"
 
 #include <bit>
 #include <cmath>

@@ -1,7 +1,7 @@
 // One sample of an image, vertex by vertex.
 #pragma once
 
-#include "host/render/bad_samples.h"
+#include "host/film/bad_samples.h"
 #include "host/scene/scene.h"
 #include "host/twin/shade_notes.h"
 

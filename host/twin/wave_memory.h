@@ -2,9 +2,9 @@
 // doubles in them.
 #pragma once
 
-#include "host/render/scene_arrays.h"
-#include "host/render/stages.h"
-#include "host/render/wave_stream.h"
+#include "host/flatten/scene_arrays.h"
+#include "host/waves/stages.h"
+#include "host/waves/wave_stream.h"
 
 #include <algorithm>
 #include <type_traits>

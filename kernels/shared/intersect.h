@@ -70,7 +70,7 @@ FN Intersection intersect_disk(vec3 to_centre, vec3 direction, vec3 edge_u, vec3
 
 // An axis that a ray is parallel to (up to 2^-64) gets the slope 2^-100 and a margin of the
 // distance: a plane within 2^-40, or 4 u of the origin, then constrains nothing up to there. In the
-// frame of a scene (host/render/scene_frame.h) rays are shorter than 2^17, so that none has moved
+// frame of a scene (host/flatten/scene_frame.h) rays are shorter than 2^17, so that none has moved
 // along such an axis by more.
 #define PARALLEL_INVERSE 1.2676506002282294e30f  // 2^100
 #define PARALLEL_MARGIN 1.152921504606846976e18f // 2^60

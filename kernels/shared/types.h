@@ -65,7 +65,7 @@
 #define ENERGY_TABLE_SIZE (ENERGY_COSINES * (HAS(anisotropy) ? ENERGY_AZIMUTHS : 1))
 
 // a, b, c and extra as the emitter's own header says; pmf: probability of picking this row, its share of the power where
-// there is a light tree; area of what is chosen by area. Lengths are in the device's units (host/render/scene_frame.h).
+// there is a light tree; area of what is chosen by area. Lengths are in the device's units (host/flatten/scene_frame.h).
 #define LIGHT_FIELDS(X)                                                                            \
     X(int, kind)                                                                                   \
     X(float, ax) X(float, ay) X(float, az)                                                         \

@@ -1,6 +1,6 @@
 // The compiler options that only save time: every stage compiles with them, and computes the same.
 #include "host/render/path_tracer.h"
-#include "host/render/stages.h"
+#include "host/waves/stages.h"
 #include "tests/support/device.h"
 #include "tests/support/every_kind_scene.h"
 

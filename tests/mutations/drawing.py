@@ -12,7 +12,9 @@ SOURCES = [
     "kernels/*.cl",
     "kernels/shared/*.h",
     "kernels/device/*.h",
-    "host/render/*.cpp",
+    "host/flatten/*.cpp",
+    "host/film/*.cpp",
+    "host/waves/render_params.cpp",
     "host/image/metrics.cpp",
     "host/image/own_variance.cpp",
     "host/image/z_test.cpp",
@@ -43,11 +45,6 @@ LEFT_OUT = [
     "kernels/device/notes.h",
     "kernels/device/shade_work.h",
     "kernels/device/traver*",
-    "host/render/path_tracer.cpp",
-    "host/render/pipeline.cpp",
-    "host/render/stage_programs.cpp",
-    "host/render/wave_*.cpp",
-    "host/render/report.cpp",
 ]
 
 

@@ -3,7 +3,7 @@
 
 #include "host/error.h"
 #include "host/image/exr.h"
-#include "host/twin/host_render.h"
+#include "host/render/host_render.h"
 #include "tests/support/render_scene.h"
 
 #include <bit>

@@ -1,7 +1,7 @@
 // No silent bad sample: what is not finite is left out, counted by the stage that made it, and
 // located, the same however the work is split.
 #include "host/commands/bad_sample_warning.h"
-#include "host/twin/host_render.h"
+#include "host/render/host_render.h"
 #include "host/twin/sample_trace.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/render_scene.h"

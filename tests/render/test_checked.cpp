@@ -1,7 +1,7 @@
 // Kernels that look after the bounds of their buffers: on the host, where they always do, with all
 // scene files of the repository; on the device they leave none, and make the same image.
-#include "host/render/film_image.h"
-#include "host/render/render_params.h"
+#include "host/film/film_image.h"
+#include "host/waves/render_params.h"
 #include "tests/support/every_switch.h"
 #include "tests/support/host_render.h"
 #include "tests/support/render_scene.h"

@@ -1,6 +1,6 @@
 // Reconstruction filters: an edge seen through a filter has the filter's integral as its profile.
-#include "host/render/camera_record.h"
-#include "host/render/filter_table.h"
+#include "host/flatten/camera_record.h"
+#include "host/flatten/filter_table.h"
 #include "host/stress/statistics.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/render_scene.h"

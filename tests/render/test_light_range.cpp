@@ -1,6 +1,6 @@
 // Lights as bright or as dim as single precision can say, and beyond: the same image in another
 // unit, whatever its sums and squares would overflow to.
-#include "host/twin/host_render.h"
+#include "host/render/host_render.h"
 #include "host/twin/sample_trace.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/render_scene.h"

@@ -1,6 +1,6 @@
 // Coarse spheres with smooth normals: faces turned away from the light are dark, and what shading
 // normals are asked for is what is rendered.
-#include "host/render/scene_features.h"
+#include "host/flatten/scene_features.h"
 #include "host/stress/smooth_spheres.h"
 #include "tests/support/render_scene.h"
 

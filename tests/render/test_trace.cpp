@@ -1,6 +1,6 @@
 // A sample told vertex by vertex is the sample that the device renders.
 #include "host/commands/trace_report.h"
-#include "host/render/film_image.h"
+#include "host/film/film_image.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/render_scene.h"
 

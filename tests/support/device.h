@@ -5,7 +5,7 @@
 #include "host/cl/buffer.h"
 #include "host/cl/program.h"
 #include "host/cl/source.h"
-#include "host/render/render_device.h"
+#include "host/waves/render_device.h"
 
 #include <catch2/catch.hpp>
 

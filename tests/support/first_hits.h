@@ -4,8 +4,8 @@
 #pragma once
 
 #include "host/commands/render.h"
+#include "host/render/host_render.h"
 #include "host/scene/load.h"
-#include "host/twin/host_render.h"
 #include "tests/unit/test_scene_tools.h"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // Rendering inside a test with the kernels compiled as C++.
 #pragma once
 
-#include "host/twin/host_render.h"
+#include "host/render/host_render.h"
 
 namespace parhelion::test {
 

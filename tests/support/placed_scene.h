@@ -1,9 +1,9 @@
 // All that the device gets of a scene, to be compared with that of the same one in another place.
 #pragma once
 
-#include "host/render/device_scene.h"
-#include "host/render/render_params.h"
+#include "host/flatten/device_scene.h"
 #include "host/stress/placed_scene.h"
+#include "host/waves/render_params.h"
 
 #include <cstring>
 #include <string>

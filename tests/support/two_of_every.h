@@ -5,7 +5,7 @@
 // side, as a panel, and each of them fills a tile of the film.
 #pragma once
 
-#include "host/render/scene_features.h"
+#include "host/flatten/scene_features.h"
 #include "tests/support/every_kind_scene.h"
 
 #include <array>

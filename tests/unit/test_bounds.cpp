@@ -1,8 +1,8 @@
 // The kernels on the host look after the bounds of their buffers: a table that is shorter than a
 // feature believes is told by its name, whichever of the list it is.
-#include "host/render/render_params.h"
 #include "host/twin/wave_memory.h"
 #include "host/twin/work_item.h"
+#include "host/waves/render_params.h"
 #include "tests/support/two_of_every.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // What is said of numbers that are mapped, and of those that are accepted but cannot be right to
 // the last digit.
-#include "host/render/camera_record.h"
+#include "host/flatten/camera_record.h"
 #include "test_scene_tools.h"
 
 #include <variant>

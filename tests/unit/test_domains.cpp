@@ -1,7 +1,7 @@
 // Every number of every plugin, at the ends of its domain, inside and beyond: refused with one
 // line, mapped with a note, or an image that is right.
+#include "host/render/host_render.h"
 #include "host/scene/text.h"
-#include "host/twin/host_render.h"
 #include "test_scene_tools.h"
 #include "tests/support/domain_scenes.h"
 #include "tests/support/domain_values.h"

@@ -5,9 +5,9 @@
 
 #include <ctime>
 
-#include "host/render/device_scene.h"
-#include "host/render/material_records.h"
-#include "host/render/scene_features.h"
+#include "host/flatten/device_scene.h"
+#include "host/flatten/material_records.h"
+#include "host/flatten/scene_features.h"
 #include "tests/support/every_kind_scene.h"
 
 #include "host/stress/white_furnace.h" // last: its macros have short names

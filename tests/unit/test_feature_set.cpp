@@ -2,7 +2,7 @@
 // for each decision.
 #include "host/error.h"
 #include "host/feature_set.h"
-#include "host/render/device_scene.h"
+#include "host/flatten/device_scene.h"
 #include "tests/support/two_of_every.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // Reconstruction filters as their papers have them, and what they make of an edge in a picture,
 // along both axes, up to the edges of the film.
-#include "host/render/filter_table.h"
+#include "host/flatten/filter_table.h"
 #include "tests/support/first_hits.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Reconstruction filters as tables, how far they reach, and which pixels are sampled for a crop.
-#include "host/render/filter_table.h"
-#include "host/render/sample_window.h"
+#include "host/film/sample_window.h"
+#include "host/flatten/filter_table.h"
 
 #include <catch2/catch.hpp>
 

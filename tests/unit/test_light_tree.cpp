@@ -1,5 +1,5 @@
 // The light tree: every light in one leaf, bounds that hold, and a choice that misses no light.
-#include "host/render/light_bounds.h"
+#include "host/flatten/light_bounds.h"
 #include "host/twin/device_functions.h"
 #include "tests/support/many_lights_scene.h"
 

@@ -3,7 +3,7 @@
 // finer.
 #include "tests/support/mitsuba_figures.h"
 
-#include "host/twin/host_render.h"
+#include "host/render/host_render.h"
 
 using namespace parhelion;
 using namespace parhelion::test::mitsuba_figures;

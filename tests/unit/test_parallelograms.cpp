@@ -1,7 +1,7 @@
 // Two triangles that are one lamp: found whichever way their corners are numbered, and only where
 // they are a parallelogram facing one way.
-#include "host/render/device_scene.h"
-#include "host/render/parallelograms.h"
+#include "host/flatten/device_scene.h"
+#include "host/flatten/parallelograms.h"
 #include "tests/support/every_kind_scene.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // What records derive from their own words is derived from those words, rounded as they are: the
 // same bits from every compiler.
-#include "host/render/device_scene.h"
+#include "host/flatten/device_scene.h"
 
 #include <catch2/catch.hpp>
 

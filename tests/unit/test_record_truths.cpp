@@ -1,8 +1,8 @@
 // What the host tells the device: rows of lights and records of materials by their closed forms,
 // and what the light tree makes of lights, by the formulas of its paper.
-#include "host/render/light_bounds.h"
-#include "host/render/light_rows.h"
-#include "host/render/material_records.h"
+#include "host/flatten/light_bounds.h"
+#include "host/flatten/light_rows.h"
+#include "host/flatten/material_records.h"
 #include "host/stress/every_kind_scene.h"
 #include "tests/support/shared_maths.h"
 

@@ -1,6 +1,6 @@
 // What the user is told of shapes that single precision cannot tell from their place, and of
 // emitters that give no light.
-#include "host/render/device_scene.h"
+#include "host/flatten/device_scene.h"
 #include "host/stress/light_tables.h"
 #include "tests/support/every_kind_scene.h"
 #include "tests/support/shared_maths.h"

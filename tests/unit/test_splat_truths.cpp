@@ -1,7 +1,7 @@
 // What filters that reach over pixels make of the samples: every pixel's mean, variance and number
 // of samples, added up by hand in double precision from the single samples.
-#include "host/render/camera_record.h"
-#include "host/render/filter_table.h"
+#include "host/flatten/camera_record.h"
+#include "host/flatten/filter_table.h"
 #include "host/twin/sample_trace.h"
 #include "tests/support/first_hits.h"
 #include "tests/support/two_of_every.h"

@@ -1,5 +1,5 @@
 // Waves are handed out so that every sample comes once, and those of a block in their order.
-#include "host/render/wave_schedule.h"
+#include "host/waves/wave_schedule.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,0 +1,194 @@
+// From the device's film to an image.
+#include "host/film/film_image.h"
+
+#include "host/error.h"
+#include "host/film/film_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace parhelion {
+namespace {
+
+struct AovKindInfo {
+    std::string_view name;
+    int channels;
+    std::string_view suffixes;
+};
+#define AOV_INFO(name, channels, suffixes) AovKindInfo{#name, channels, suffixes},
+constexpr std::array aov_kinds{AOVS(AOV_INFO)};
+static_assert(aov_kinds.size() <= AOV_LIMIT);
+constexpr std::array film_aov_kinds{FILM_AOVS(AOV_INFO)};
+
+/// Place of a kind in its list; the length of the list: there is no such kind.
+template<std::size_t N>
+int kind_of(const std::array<AovKindInfo, N>& kinds, const std::string& name) {
+    auto found = std::find_if(kinds.begin(), kinds.end(),
+                              [&](const AovKindInfo& kind) { return kind.name == name; });
+    return static_cast<int>(found - kinds.begin());
+}
+
+std::string aov_kind_names() {
+    std::string text;
+    for (const AovKindInfo& kind : aov_kinds)
+        text += fmt::format("{}, ", kind.name);
+    for (const AovKindInfo& kind : film_aov_kinds)
+        text += fmt::format("{}{}", kind.name, kind.name == film_aov_kinds.back().name ? "" : ", ");
+    return text;
+}
+
+void check_twice(const std::vector<AovLayer>& layers, const AovRequest& request, int kind) {
+    for (const AovLayer& layer : layers)
+        if (layer.kind == kind || layer.name == request.name)
+            throw InputError(fmt::format("{}: AOV '{}' ({}) is asked for twice",
+                                         request.location.to_string(), request.name, request.kind));
+}
+
+/// Linear Rec. 709 to CIE XYZ (ITU-R BT.709 primaries, D65), rows X, Y, Z: the figures Mitsuba 3
+/// uses.
+constexpr double xyz_from_rgb[3][3] = {
+    {0.412453, 0.357580, 0.180423}, {0.212671, 0.715160, 0.072169}, {0.019334, 0.119193, 0.950227}};
+
+std::vector<float> combine(const std::array<std::vector<float>, 3>& rgb, const double (&row)[3]) {
+    std::vector<float> out(rgb[0].size());
+    for (std::size_t i = 0; i < out.size(); i++)
+        out[i] = static_cast<float>(row[0] * rgb[0][i] + row[1] * rgb[1][i] + row[2] * rgb[2][i]);
+    return out;
+}
+
+std::vector<float> scaled(std::vector<float> values, double factor) {
+    for (float& v : values)
+        v = static_cast<float>(v * factor);
+    return values;
+}
+
+/// Coordinates in the scene. `shares`: of each pixel what is covered by them, since the centre is
+/// only added there.
+std::vector<float> in_scene(std::vector<float> coordinates, const std::vector<float>& shares,
+                            double centre, double unit) {
+    for (std::size_t i = 0; i < coordinates.size(); i++)
+        coordinates[i] = static_cast<float>(coordinates[i] * unit + centre * shares[i]);
+    return coordinates;
+}
+
+/// `unit`: what radiance 1 stands for.
+void add_main_layer(const FilmReader& film, PixelFormat format, double unit, Image& image) {
+    std::array<std::vector<float>, 3> rgb{scaled(film.means(result_r), unit),
+                                          scaled(film.means(result_g), unit),
+                                          scaled(film.means(result_b), unit)};
+    switch (format) {
+    case PixelFormat::luminance:
+    case PixelFormat::luminance_alpha:
+        add_channel(image, "Y", combine(rgb, xyz_from_rgb[1]));
+        break;
+    case PixelFormat::xyz:
+    case PixelFormat::xyza:
+        add_channel(image, "X", combine(rgb, xyz_from_rgb[0]));
+        add_channel(image, "Y", combine(rgb, xyz_from_rgb[1]));
+        add_channel(image, "Z", combine(rgb, xyz_from_rgb[2]));
+        break;
+    case PixelFormat::rgb:
+    case PixelFormat::rgba:
+        add_channel(image, "R", std::move(rgb[0]));
+        add_channel(image, "G", std::move(rgb[1]));
+        add_channel(image, "B", std::move(rgb[2]));
+    }
+    if (format == PixelFormat::luminance_alpha || format == PixelFormat::rgba ||
+        format == PixelFormat::xyza)
+        add_channel(image, "A", film.means(result_alpha));
+}
+
+void add_aov_layer(const FilmReader& film, const AovLayer& layer, const SceneFrame& frame,
+                   Image& image) {
+    const AovKindInfo& kind = aov_kinds[layer.kind];
+    auto means = [&](int channel) {
+        return film.means(result_field_count + layer.channel + channel);
+    };
+    for (int c = 0; c < static_cast<int>(kind.suffixes.size()); c++) {
+        std::vector<float> values = means(c);
+        if (layer.kind == aov_depth) values = scaled(std::move(values), frame.unit());
+        if (layer.kind == aov_position)
+            values = in_scene(std::move(values), means(3), frame.centre()[c], frame.unit());
+        add_channel(image, fmt::format("{}.{}", layer.name, kind.suffixes[c]), std::move(values));
+    }
+}
+
+} // namespace
+
+bool is_film_aov(const AovRequest& request) {
+    return kind_of(film_aov_kinds, request.kind) < film_aov_kind_count;
+}
+
+AovPlan plan_aovs(const Scene& scene) {
+    AovPlan plan;
+    for (const AovRequest& request : scene.integrator.aovs) {
+        bool of_film = is_film_aov(request);
+        int kind =
+            of_film ? kind_of(film_aov_kinds, request.kind) : kind_of(aov_kinds, request.kind);
+        if (!of_film && kind == aov_kind_count)
+            throw InputError(fmt::format("{}: there is no AOV '{}'; there are {}",
+                                         request.location.to_string(), request.kind,
+                                         aov_kind_names()));
+        check_twice(plan.layers, request, of_film ? -1 : kind);
+        check_twice(plan.film_layers, request, of_film ? kind : -1);
+        if (of_film && kind == film_aov_variance && scene.sampler.samples_per_pixel < 2)
+            throw InputError(fmt::format("{}: AOV '{}' needs at least 2 samples per pixel",
+                                         request.location.to_string(), request.kind));
+        if (of_film) {
+            plan.film_layers.push_back({request.name, kind, 0});
+            continue;
+        }
+        plan.layers.push_back({request.name, kind, plan.channels});
+        plan.channels += aov_kinds[kind].channels;
+    }
+    return plan;
+}
+
+int film_channels(const Integrator& integrator, const AovPlan& aovs) {
+    return result_field_count + aovs.channels + (integrator.second_moment ? 3 : 0) +
+           (aovs.film_layers.empty() ? 0 : static_cast<int>(spread_channel_count));
+}
+
+double main_layer_unit(IntegratorKind kind, const SceneFrame& frame) {
+    switch (kind) {
+    case IntegratorKind::depth:
+        return frame.unit();
+    case IntegratorKind::normals:
+        return 1.0;
+    default:
+        return frame.radiance_unit;
+    }
+}
+
+Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene,
+                 const AovPlan& aovs, const SceneFrame& frame) {
+    const Film& crop = scene.film;
+    Image image;
+    image.width = crop.crop_width, image.height = crop.crop_height;
+    image.full_width = crop.width, image.full_height = crop.height;
+    image.offset_x = crop.crop_x, image.offset_y = crop.crop_y;
+    FilmReader reader(film, sizes, crop);
+    double unit = main_layer_unit(scene.integrator.kind, frame);
+    add_main_layer(reader, crop.pixel_format, unit, image);
+    for (const AovLayer& layer : aovs.layers)
+        add_aov_layer(reader, layer, frame, image);
+    for (const AovLayer& layer : aovs.film_layers) {
+        const AovKindInfo& kind = film_aov_kinds[layer.kind];
+        for (int c = 0; c < static_cast<int>(kind.suffixes.size()); c++)
+            add_channel(image, fmt::format("{}.{}", layer.name, kind.suffixes[c]),
+                        layer.kind == film_aov_variance ? scaled(reader.variances(c), unit * unit)
+                                                        : reader.sample_counts());
+    }
+    if (scene.integrator.second_moment) {
+        constexpr std::string_view suffixes = "RGB";
+        for (int c = 0; c < 3; c++)
+            add_channel(image, fmt::format("second_moment.{}", suffixes[c]),
+                        scaled(reader.means(result_field_count + aovs.channels + c), unit * unit));
+    }
+    return image;
+}
+
+} // namespace parhelion

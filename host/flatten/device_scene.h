@@ -1,0 +1,60 @@
+// The scene as the device reads it: flat arrays of the records in kernels/shared/types.h.
+#pragma once
+
+#include "host/bvh/bvh.h"
+#include "host/flatten/feature_decisions.h"
+#include "host/flatten/scene_frame.h"
+#include "host/large_vector.h"
+#include "host/scene/scene.h"
+#include "kernels/device/buffers.h"
+#include "kernels/shared/types.h"
+
+#include <string>
+#include <vector>
+
+namespace parhelion {
+
+struct LightTree {
+    std::vector<LightNodeRecord> nodes; ///< siblings side by side, the root itself left out
+    std::vector<int> leaves;            ///< the node of each light
+};
+
+/// How one of many lights is chosen: by what it may send to the point to be lit, or by its power
+/// alone.
+enum class LightChoice { importance, power };
+
+/// All places and lengths are in the units of `frame`, about its centre.
+struct DeviceScene {
+    SceneFrame frame;
+    LargeVector<PrimitiveRecord> primitives;
+    LargeVector<VertexRecord>
+        vertices; ///< parallel to primitives; empty where no mesh has attributes that are read
+    std::vector<MaterialRecord> materials;
+    std::vector<LightRecord> lights;
+    LightTree light_tree;             ///< empty where there is only one light
+    std::vector<float> energy_tables; ///< one behind the other; materials know their first
+    std::vector<FilterBin> filter_table;
+    std::vector<float> filter_values;
+    Bvh bvh;
+    BvhStatistics bvh_statistics;
+    int camera_root = 0; ///< differs from root where emitters are hidden from the camera
+    int root = 0;
+    int constant_light = -1;        ///< row of the light table
+    FeatureDecisions features;      ///< what the kernels must have, and why
+    std::vector<std::string> notes; ///< what single precision makes of the scene that the user
+                                    ///< should be told, one line each; beside Scene::notes
+
+    std::size_t bytes() const;
+};
+
+/// Flattens a scene and builds its BVH. Throws InputError where the scene is larger than the
+/// device's 32-bit indices.
+DeviceScene make_device_scene(const Scene& scene, LightChoice choice = LightChoice::importance);
+
+/// Of a shape; 0 for a mesh without triangles.
+std::size_t primitive_count(const Shape& shape);
+
+/// 1 / |cross(u, v)| as records keep it: 0 where the plane of u and v is none that floats know.
+float inverse_normal_length(const glm::dvec3& u, const glm::dvec3& v);
+
+} // namespace parhelion

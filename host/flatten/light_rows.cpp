@@ -1,0 +1,274 @@
+// Rows of the light table: one for every emitting primitive and every other emitter.
+#include "host/flatten/light_rows.h"
+
+#include "host/error.h"
+#include "host/flatten/parallelograms.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace parhelion {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double square(double v) { return v * v; }
+
+LightRow make_row(EmitterKind kind, const Rgb& radiance) {
+    LightRow row;
+    row.kind = kind;
+    row.radiance = radiance;
+    return row;
+}
+
+// ---- surfaces, in the frame of the device
+
+double rounded_inverse_normal(const glm::dvec3& u, const glm::dvec3& v) {
+    return inverse_normal_length(glm::dvec3(glm::vec3(u)), glm::dvec3(glm::vec3(v)));
+}
+
+/// The side a triangle emits from is its shading normal's: the row's winding follows that.
+Corners facing_emission(const Mesh& mesh, std::size_t triangle, const Corners& c) {
+    if (mesh.normals.empty()) return c;
+    const glm::uvec3& t = mesh.triangles[triangle];
+    glm::dvec3 sum = mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z];
+    bool turned = glm::dot(sum, glm::cross(c[1] - c[0], c[2] - c[0])) < 0.0;
+    return turned ? Corners{c[0], c[2], c[1]} : c;
+}
+
+/// Of corners as the device's primitives have them, but of the area that they were meant to have.
+LightRow corners_row(EmitterKind kind, const Corners& c, double area) {
+    LightRow row;
+    row.kind = kind;
+    row.a = c[0], row.b = c[1], row.c = c[2];
+    row.extra = inverse_normal_length(row.b - row.a, row.c - row.a);
+    row.area = area;
+    return row;
+}
+
+LightRow tiny_triangle_row(const glm::dvec3& corner, const Corners& edges) {
+    LightRow row;
+    row.kind = emitter_area_tiny_triangle;
+    row.a = corner, row.b = edges[1], row.c = edges[2];
+    row.extra = rounded_inverse_normal(row.b, row.c);
+    row.area = triangle_area(edges);
+    return row;
+}
+
+LightRow triangle_row(const Mesh& mesh, std::size_t triangle, const SceneFrame& frame) {
+    Corners corners = corners_of(mesh, triangle, frame), edges = edges_of(mesh, triangle, frame);
+    if (is_tiny(mesh, triangle, frame))
+        return tiny_triangle_row(corners[0], facing_emission(mesh, triangle, edges));
+    return corners_row(emitter_area_triangle, facing_emission(mesh, triangle, rounded(corners)),
+                       triangle_area(edges));
+}
+
+/// The triangle and the next one, which together are a parallelogram.
+LightRow parallelogram_row(const Mesh& mesh, std::size_t triangle, const SceneFrame& frame) {
+    Corners shape = parallelogram_of(rounded(corners_of(mesh, triangle, frame)),
+                                     rounded(corners_of(mesh, triangle + 1, frame)))
+                        .value();
+    double area = triangle_area(edges_of(mesh, triangle, frame)) +
+                  triangle_area(edges_of(mesh, triangle + 1, frame));
+    LightRow row =
+        corners_row(emitter_area_parallelogram, facing_emission(mesh, triangle, shape), area);
+    row.primitive_count = 2;
+    return row;
+}
+
+std::vector<LightRow> rows_of(const Mesh& mesh, const SceneFrame& frame) {
+    std::vector<LightRow> rows;
+    std::vector<bool> pairs = starts_parallelogram(mesh, frame);
+    for (std::size_t i = 0; i < pairs.size(); i += pairs[i] ? 2 : 1) {
+        rows.push_back(pairs[i] ? parallelogram_row(mesh, i, frame) : triangle_row(mesh, i, frame));
+        rows.back().first_primitive = static_cast<int>(i);
+    }
+    return rows;
+}
+
+double side_of(bool flip_normals) { return flip_normals ? -1.0 : 1.0; }
+
+std::vector<LightRow> rows_of(const Sphere& in_scene, const SceneFrame& frame) {
+    Sphere sphere = frame.sphere(in_scene);
+    LightRow row;
+    row.kind = emitter_area_sphere;
+    row.a = sphere.center, row.b.x = sphere.radius;
+    row.extra = side_of(sphere.flip_normals);
+    row.area = 4.0 * pi * sphere.radius * sphere.radius;
+    row.first_primitive = 0;
+    return {row};
+}
+
+std::vector<LightRow> rows_of(const Disk& in_scene, const SceneFrame& frame) {
+    Disk disk = frame.disk(in_scene);
+    LightRow row;
+    row.kind = emitter_area_disk;
+    row.a = disk.center, row.b = disk.edge_u, row.c = disk.edge_v;
+    row.extra = side_of(disk.flip_normals) * rounded_inverse_normal(disk.edge_u, disk.edge_v);
+    row.area = pi * glm::length(glm::cross(disk.edge_u, disk.edge_v));
+    row.first_primitive = 0;
+    return {row};
+}
+
+// ---- emitters that are no surfaces
+
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void grow(const glm::dvec3& p, double r) {
+        low = glm::min(low, p - r), high = glm::max(high, p + r);
+    }
+    /// Half the diagonal; 1 for a scene without extent.
+    double radius() const {
+        double r = 0.5 * glm::length(high - low);
+        return r > 0.0 && low.x <= high.x ? r : 1.0;
+    }
+    double distance(const glm::dvec3& p) const {
+        return low.x <= high.x ? glm::length(p - glm::clamp(p, low, high)) : glm::length(p);
+    }
+};
+
+/// What they are made with.
+struct Surroundings {
+    const SceneFrame& frame;
+    Box box; ///< around all primitives, device units
+    const std::string& file;
+};
+
+/// Place and intensity of a light without size, on the device.
+///
+/// From far beyond the scene its light is parallel: a light further away than 2^50 units, where
+/// distances squared would soon leave the range of single precision, is brought to there, and is
+/// as much less intense.
+void set_point(LightRow& row, const glm::dvec3& position, const Rgb& intensity,
+               const Surroundings& s) {
+    constexpr int far = 50;
+    glm::dvec3 from_centre = (position - s.frame.camera) - s.frame.shift;
+    double distance =
+        std::max({std::fabs(from_centre.x), std::fabs(from_centre.y), std::fabs(from_centre.z)});
+    if (!std::isfinite(distance))
+        throw InputError(fmt::format("{}: the distance of a point or spot light from the shapes is "
+                                     "no number (accepted: up to {:.0e})",
+                                     s.file, std::numeric_limits<double>::max()));
+    int scale = std::ilogb(s.frame.scale);
+    int nearer = distance > 0.0 ? std::max(std::ilogb(distance) + scale - far, 0) : 0;
+    for (int axis = 0; axis < 3; axis++) {
+        row.a[axis] = std::ldexp(from_centre[axis], scale - nearer) + 0.0;
+        row.radiance[axis] = std::ldexp(intensity[axis], 2 * (scale - nearer));
+    }
+    row.distance = s.box.distance(row.a);
+}
+
+LightRow row_of(const PointEmitter& e, const Surroundings& s) {
+    LightRow row;
+    row.kind = emitter_point;
+    set_point(row, e.position, e.intensity, s);
+    row.etendue = 4.0 * pi;
+    return row;
+}
+
+LightRow row_of(const SpotEmitter& e, const Surroundings& s) {
+    LightRow row;
+    row.kind = emitter_spot;
+    set_point(row, e.position, e.intensity, s);
+    row.b = e.direction;
+    // With no transition the falloff is never evaluated: the two cosines meet.
+    double transition = e.cutoff_angle - e.beam_width;
+    row.c = {std::cos(e.cutoff_angle), e.cutoff_angle, transition > 0.0 ? 1.0 / transition : 0.0};
+    row.extra = std::cos(e.beam_width);
+    row.etendue = 2.0 * pi * (1.0 - std::cos(0.5 * (e.cutoff_angle + e.beam_width)));
+    return row;
+}
+
+LightRow row_of(const DirectionalEmitter& e, const Surroundings& s) {
+    LightRow row = make_row(emitter_directional, e.irradiance);
+    row.b = e.direction;
+    row.etendue = pi * square(s.box.radius());
+    return row;
+}
+
+LightRow row_of(const ConstantEmitter& e, const Surroundings& s) {
+    LightRow row = make_row(emitter_constant, e.radiance);
+    row.etendue = 4.0 * pi * pi * square(s.box.radius());
+    return row;
+}
+
+Box box_around(std::span<const PrimitiveRecord> primitives) {
+    Box box;
+    for (const PrimitiveRecord& p : primitives) {
+        glm::dvec3 a(p.ax, p.ay, p.az), b(p.bx, p.by, p.bz), c(p.cx, p.cy, p.cz);
+        switch (p.flags & PRIMITIVE_KIND_MASK) {
+        case geometry_sphere:
+            box.grow(a, p.extra);
+            break;
+        case geometry_disk:
+            box.grow(a, std::hypot(glm::length(b), glm::length(c)));
+            break;
+        default:
+            box.grow(a, 0.0), box.grow(b, 0.0), box.grow(c, 0.0);
+        }
+    }
+    return box;
+}
+
+// ---- all of them
+
+/// What is to be said of a shape whose light is lost, or part of it; nothing if none is.
+void note_lost_light(const Shape& shape, std::span<const LightRow> rows,
+                     std::vector<std::string>& notes) {
+    auto flat = [](const LightRow& row) { return !(row.area > 0.0); };
+    auto lost = [](const LightRow& row) {
+        return row.area > 0.0 && row.area < double{std::numeric_limits<float>::min()};
+    };
+    if (!rows.empty() && std::all_of(rows.begin(), rows.end(), flat))
+        notes.push_back(fmt::format("{}: {} '{}' emits, but has no area: it gives no light",
+                                    shape.location.to_string(), shape.plugin, shape.id));
+    if (std::any_of(rows.begin(), rows.end(), lost))
+        notes.push_back(fmt::format("{}: {} '{}' emits, but is too small beside the scene for its "
+                                    "light to be right",
+                                    shape.location.to_string(), shape.plugin, shape.id));
+}
+
+std::vector<LightRow> rows_of(const Shape& shape, const SceneFrame& frame, int first_primitive,
+                              std::vector<std::string>& notes) {
+    std::vector<LightRow> rows =
+        std::visit([&](const auto& g) { return rows_of(g, frame); }, shape.geometry);
+    for (LightRow& row : rows) {
+        row.radiance = *shape.radiance;
+        row.etendue = pi * row.area;
+        row.first_primitive += first_primitive;
+    }
+    if (brightness(*shape.radiance) > 0.0) note_lost_light(shape, rows, notes);
+    return rows;
+}
+
+} // namespace
+
+std::vector<LightRow> light_rows(const Scene& scene, const DeviceScene& device,
+                                 std::vector<std::string>& notes) {
+    std::vector<LightRow> rows;
+    int first = 0;
+    for (const Shape& shape : scene.shapes) {
+        if (shape.radiance) {
+            std::vector<LightRow> more = rows_of(shape, device.frame, first, notes);
+            rows.insert(rows.end(), more.begin(), more.end());
+        }
+        first += static_cast<int>(primitive_count(shape));
+    }
+    Surroundings around{device.frame, box_around(device.primitives), scene.file};
+    for (const Emitter& emitter : scene.emitters)
+        rows.push_back(std::visit([&](const auto& e) { return row_of(e, around); }, emitter));
+    std::erase_if(rows, [](const LightRow& row) {
+        return !(row.etendue > 0.0 && brightness(row.radiance) > 0.0);
+    });
+    return rows;
+}
+
+} // namespace parhelion

@@ -1,0 +1,244 @@
+// The one place that decides which features a scene's kernels have.
+#include "host/flatten/scene_features.h"
+
+#include "host/film/film_image.h"
+#include "host/flatten/filter_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace parhelion {
+namespace {
+
+// By kind.
+constexpr std::array material_features{MATERIALS(FEATURE_MATERIAL)};
+constexpr std::array emitter_features{EMITTERS(FEATURE_EMITTER)};
+constexpr std::array geometry_features{GEOMETRIES(FEATURE_GEOMETRY)};
+
+// Measured: packets win while the tree (50 bytes a primitive) stays near the caches' size.
+constexpr std::size_t primitives_for_packets = 500'000;
+
+/// "2 of 5 materials": decides a feature that any of them needs.
+template<class Records, class Needs>
+void decide_by_count(FeatureDecisions& out, Feature f, const Records& records, const char* name,
+                     Needs needs) {
+    auto count = std::count_if(records.begin(), records.end(), needs);
+    out.decide(f, count > 0, fmt::format("{} of {} {}", count, records.size(), name));
+}
+
+void decide_by_request(FeatureDecisions& out, Feature f, bool asked) {
+    out.decide(f, asked, asked ? "asked for" : "not asked for");
+}
+
+template<std::size_t N, class Records, class KindOf>
+void decide_kinds(FeatureDecisions& out, const std::array<Feature, N>& features,
+                  const Records& records, const char* name, KindOf kind_of) {
+    for (std::size_t kind = 0; kind < N; kind++)
+        decide_by_count(out, features[kind], records, name, [&](const auto& record) {
+            return static_cast<std::size_t>(kind_of(record)) == kind;
+        });
+}
+
+bool is_rough(const MaterialRecord& m) {
+    return m.kind == material_roughconductor || m.kind == material_roughdielectric;
+}
+bool is_beckmann(const MaterialRecord& m) { return is_rough(m) && (m.distribution & 1); }
+bool is_anisotropic(const MaterialRecord& m) { return is_rough(m) && m.alpha_u != m.alpha_v; }
+bool lets_through(const MaterialRecord& m) { return (PASSING_MATERIALS >> m.kind) & 1; }
+
+void decide_materials(const std::vector<MaterialRecord>& materials, FeatureDecisions& out) {
+    decide_kinds(out, material_features, materials, "materials",
+                 [](const MaterialRecord& m) { return m.kind; });
+    // GGX is always there: Beckmann is sampled by its visible normals.
+    decide_by_count(out, feature_ggx, materials, "materials rough", is_rough);
+    decide_by_count(out, feature_beckmann, materials, "materials", is_beckmann);
+    decide_by_count(out, feature_anisotropy, materials, "materials", is_anisotropic);
+}
+
+bool is_opaque(const DeviceScene& records, int material) {
+    return material >= 0 && ((OPAQUE_MATERIALS >> records.materials[material].kind) & 1);
+}
+
+/// An opaque material is asked for what it does below its surface, too.
+bool has_back_material(const PrimitiveRecord& p, const DeviceScene& records) {
+    bool differs = p.material_front != p.material_back;
+    // A front of null and a black back differ too, but a one-sided opaque front absorbs below by
+    // itself.
+    bool black_back = p.material_back < 0 && is_opaque(records, p.material_front);
+    return (differs && !black_back) || is_opaque(records, p.material_back);
+}
+
+/// The first primitives of all shapes that have some: those of one shape are alike but for where
+/// they are.
+std::vector<PrimitiveRecord> shape_examples(const Scene& scene, const DeviceScene& records) {
+    std::vector<PrimitiveRecord> examples;
+    std::size_t first = 0;
+    for (const Shape& shape : scene.shapes) {
+        std::size_t count = primitive_count(shape);
+        if (count > 0) examples.push_back(records.primitives[first]);
+        first += count;
+    }
+    return examples;
+}
+
+void decide_surfaces(const Scene& scene, const DeviceScene& records, FeatureDecisions& out) {
+    std::vector<PrimitiveRecord> shapes = shape_examples(scene, records);
+    decide_kinds(out, geometry_features, shapes, "shapes",
+                 [](const PrimitiveRecord& p) { return p.flags & PRIMITIVE_KIND_MASK; });
+    bool attributes = !records.vertices.empty();
+    auto read = [&](int flag) {
+        return [=](const PrimitiveRecord& p) { return attributes && (p.flags & flag); };
+    };
+    decide_by_count(out, feature_vertex_normals, shapes, "shapes", read(PRIMITIVE_NORMALS));
+    decide_by_count(out, feature_vertex_uvs, shapes, "shapes, where they are read",
+                    read(PRIMITIVE_UVS));
+    decide_by_count(out, feature_back_materials, shapes, "shapes",
+                    [&](const PrimitiveRecord& p) { return has_back_material(p, records); });
+    std::size_t primitives = records.primitives.size();
+    out.decide(feature_ray_streams, traced_in_streams(primitives),
+               fmt::format("{} primitives; packets up to {}", primitives, primitives_for_packets));
+}
+
+constexpr FeatureSet meetable_emitters{
+    feature_emitter_area_triangle,      feature_emitter_area_parallelogram,
+    feature_emitter_area_tiny_triangle, feature_emitter_area_sphere,
+    feature_emitter_area_disk,          feature_emitter_constant};
+
+void decide_lights(const DeviceScene& records, FeatureDecisions& out) {
+    decide_kinds(out, emitter_features, records.lights, "lights",
+                 [](const LightRecord& light) { return light.kind; });
+    std::size_t lights = records.lights.size();
+    out.decide(feature_several_lights, lights > 1, fmt::format("{} lights", lights));
+}
+
+/// What of light transport an integrator asks for, and the scene has.
+struct Transport {
+    bool asked, lit, emission, several, next_event, through, sees, scatters, roulette;
+    std::string found;
+};
+
+std::string edges(int longest) {
+    return longest < 0 ? "paths of any length" : fmt::format("paths of at most {} edges", longest);
+}
+
+/// After surfaces and lights.
+Transport transport(const Integrator& integrator, const DeviceScene& records,
+                    const FeatureSet& on) {
+    Transport t{};
+    t.asked = integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct;
+    if (!t.asked) {
+        t.found = "no light transport is asked for";
+        return t;
+    }
+    t.lit = !records.lights.empty();
+    int longest = integrator.kind == IntegratorKind::direct ? 2 : integrator.max_depth;
+    bool meetable = !(on & meetable_emitters).empty();
+    t.emission = meetable && longest != 0;
+    t.several = longest < 0 || longest >= 2;
+    t.next_event = t.lit && t.several && integrator.emitter_samples;
+    // As in Mitsuba 3: what lets rays straight through is a surface like others to `direct`.
+    t.through = integrator.kind == IntegratorKind::path &&
+                std::any_of(records.materials.begin(), records.materials.end(), lets_through);
+    // After the last scattering only emission can be met: with point lights alone nothing is. But
+    // what lies behind a surface that lets rays through covers the pixel, lit or not.
+    t.sees = meetable || (t.lit && (longest < 0 || longest >= 3)) || t.through;
+    t.scatters = t.several && integrator.bsdf_samples && t.sees;
+    t.roulette = t.scatters && (longest < 0 || longest > integrator.rr_depth);
+    t.found = fmt::format("{} lights, {}", records.lights.size(), edges(longest));
+    return t;
+}
+
+void decide_transport(const Scene& scene, const DeviceScene& records, FeatureDecisions& out) {
+    const Integrator& integrator = scene.integrator;
+    Transport t = transport(integrator, records, out.on());
+    const char* sampled = integrator.emitter_samples ? "sampled" : "not sampled";
+    out.decide(feature_emission, t.emission, t.found);
+    out.decide(feature_next_event, t.next_event,
+               fmt::format("{}, lights are {}", t.found, sampled));
+    out.decide(feature_light_tree, t.next_event && !records.light_tree.nodes.empty(),
+               fmt::format("{} nodes, lights are {}", records.light_tree.nodes.size(), sampled));
+    decide_by_count(out, feature_straight_through, records.materials,
+                    "materials let rays go straight on",
+                    [&](const MaterialRecord& m) { return t.through && lets_through(m); });
+    out.decide(feature_scattering, t.scatters, t.found);
+    out.decide(feature_russian_roulette, t.roulette,
+               fmt::format("{}, roulette from edge {} on", t.found, integrator.rr_depth));
+    decide_by_request(out, feature_hide_emitters, t.asked && integrator.hide_emitters);
+    bool shaded = out.has(feature_vertex_normals) && (t.next_event || t.scatters);
+    std::string normals =
+        shading_normals_names[static_cast<std::size_t>(integrator.shading_normals)];
+    std::string smooth = fmt::format("{}, shading normals are {}",
+                                     shaded ? "smooth shapes" : "no smooth shapes", normals);
+    out.decide(feature_consistent_normals,
+               shaded && integrator.shading_normals != ShadingNormals::raw, smooth);
+    out.decide(feature_soft_terminator,
+               shaded && integrator.shading_normals == ShadingNormals::soft, smooth);
+}
+
+void decide_camera_and_sampler(const Scene& scene, const DeviceScene& records,
+                               FeatureDecisions& out) {
+    const Sampler& sampler = scene.sampler;
+    bool pattern = sampler.pattern == SamplePattern::faure;
+    const char* name = sample_pattern_names[static_cast<std::size_t>(sampler.pattern)];
+    out.decide(feature_faure, pattern, name);
+    out.decide(feature_replicates, pattern && sampler.replicates > 1,
+               fmt::format("{}, {} replicates", name, sampler.replicates));
+    out.decide(feature_thin_lens, scene.camera.aperture_radius > 0.0,
+               fmt::format("aperture of radius {}", scene.camera.aperture_radius));
+    out.decide(feature_far_camera, records.frame.start > 0.0,
+               fmt::format("rays start at {}", records.frame.start));
+}
+
+void decide_film(const Scene& scene, FeatureDecisions& out) {
+    const Integrator& integrator = scene.integrator;
+    bool box = scene.film.filter.kind == FilterKind::box;
+    int reach = box ? 0 : filter_reach(scene.film);
+    std::string filter = box ? "box filter" : fmt::format("a filter that reaches {} pixels", reach);
+    out.decide(feature_filter_splatting, !box && reach > 0, filter);
+    out.decide(feature_filter_sampling, !box && reach == 0, filter);
+    decide_by_request(out, feature_view_normals, integrator.kind == IntegratorKind::normals);
+    decide_by_request(out, feature_view_depth, integrator.kind == IntegratorKind::depth);
+    decide_by_request(out, feature_moments, integrator.second_moment);
+    decide_by_count(out, feature_variance, integrator.aovs, "layers", is_film_aov);
+    decide_by_count(out, feature_aovs, integrator.aovs, "layers",
+                    [](const AovRequest& a) { return !is_film_aov(a); });
+}
+
+} // namespace
+
+FeatureDecisions scene_features(const Scene& scene, const DeviceScene& records) {
+    FeatureDecisions out;
+    decide_materials(records.materials, out);
+    decide_surfaces(scene, records, out);
+    decide_lights(records, out);
+    decide_camera_and_sampler(scene, records, out);
+    decide_film(scene, out);
+    decide_transport(scene, records, out);
+    return out;
+}
+
+void decide_energy_compensation(DeviceScene& records) {
+    std::size_t values = records.energy_tables.size();
+    records.features.decide(feature_energy_compensation, values > 0,
+                            fmt::format("{} values of energy tables", values));
+}
+
+bool traced_in_streams(std::size_t primitives) { return primitives > primitives_for_packets; }
+
+FeatureSet neutral_features() {
+    // Not anisotropy (turns the frame), nor what decides which light is counted, nor views and film
+    // layouts. Vertex records and the sky's light row exist only where they are needed.
+    FeatureSet neutral{feature_back_materials, feature_ggx, feature_beckmann, feature_ray_streams};
+    for (Feature f : material_features)
+        neutral.set(f);
+    for (Feature f : geometry_features)
+        neutral.set(f);
+    for (Feature f : emitter_features)
+        neutral.set(f, f != feature_emitter_constant);
+    return neutral;
+}
+
+} // namespace parhelion

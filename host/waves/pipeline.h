@@ -1,0 +1,42 @@
+// The device side of a render: compiled stages, the scene's buffers, the film, and streams of
+// waves.
+#pragma once
+
+#include "host/film/bad_samples.h"
+#include "host/waves/wave_stream.h"
+
+namespace parhelion {
+
+class Pipeline {
+public:
+    /// `device` must outlive it.
+    Pipeline(RenderDevice& device, const StageOptions& options);
+
+    /// `scene` must outlive the pipeline and not change: a CPU reads its large arrays where they
+    /// are.
+    void upload(const DeviceScene& scene);
+    /// Film and streams, bound to the scene and the parameters.
+    void allocate(const WorkSizes& sizes, const RenderParams& params);
+
+    std::vector<WaveStream>& streams() { return streams_; }
+    std::vector<float> read_film();
+    /// Of all streams.
+    std::array<std::uint64_t, statistic_count> read_statistics();
+    /// The first of each block of the film, in no order.
+    std::vector<BadSample> read_bad_samples();
+    std::vector<StageReport> stage_reports() const;
+    /// Of the process that compiled beside this one, bytes; 0: there was none.
+    std::uint64_t compiler_peak_bytes() const { return stages_.beside_peak_bytes; }
+    const std::vector<std::string>& notes() const { return stages_.notes; }
+    std::size_t pool_bytes() const;
+    std::size_t film_bytes() const;
+
+private:
+    RenderDevice& device_;
+    StagePrograms stages_;
+    SceneBuffers scene_;
+    Buffer<float> film_;
+    std::vector<WaveStream> streams_;
+};
+
+} // namespace parhelion

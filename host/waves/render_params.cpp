@@ -1,0 +1,71 @@
+// What all kernels of a render are told.
+#include "host/waves/render_params.h"
+
+#include "host/flatten/camera_record.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace parhelion {
+namespace {
+
+/// Edges from the camera after which nothing more is to be seen.
+int longest_path(const Integrator& integrator) {
+    switch (integrator.kind) {
+    case IntegratorKind::path:
+        return integrator.max_depth < 0 ? std::numeric_limits<int>::max() : integrator.max_depth;
+    case IntegratorKind::direct:
+        return 2;
+    case IntegratorKind::depth:
+    case IntegratorKind::normals:
+    case IntegratorKind::aov:
+        return 1;
+    }
+    return 1;
+}
+
+} // namespace
+
+RenderParams render_params(const Scene& scene, const DeviceScene& device, const WorkSizes& sizes,
+                           const AovPlan& aovs) {
+    RenderParams p{};
+    p.camera = camera_record(scene.camera, scene.film.width, scene.film.height, device.frame);
+    p.film_width = scene.film.width, p.film_height = scene.film.height;
+    p.sample_border = scene.film.sample_border;
+    p.pixel_stride = sizes.window.pixel_stride;
+    p.window_x = sizes.window.x, p.window_y = sizes.window.y;
+    p.window_width = sizes.window.width, p.window_height = sizes.window.height;
+    p.block_x = sizes.window.block_x, p.block_y = sizes.window.block_y;
+    p.blocks_x = sizes.window.blocks_x;
+    p.filter_reach = sizes.window.reach;
+    p.seed = static_cast<int>(scene.sampler.seed);
+    p.replicate_bits = std::countr_zero(static_cast<unsigned>(scene.sampler.replicates));
+    p.max_depth = longest_path(scene.integrator);
+    p.rr_depth = scene.integrator.rr_depth;
+    p.constant_light = device.constant_light;
+    // As in Mitsuba 3: a visible sky is part of the picture to `path`, and behind it to `direct`.
+    // One of no power is there too.
+    auto is_sky = [](const Emitter& e) { return std::holds_alternative<ConstantEmitter>(e); };
+    p.sky_covers = scene.integrator.kind == IntegratorKind::path &&
+                   !scene.integrator.hide_emitters &&
+                   std::any_of(scene.emitters.begin(), scene.emitters.end(), is_sky);
+    p.filter_bins =
+        device.filter_table.empty() ? 0 : static_cast<int>(device.filter_table.size()) - 1;
+    p.result_stride = static_cast<int>(sizes.result_stride());
+    p.state_stride = static_cast<int>(sizes.state_stride());
+    p.segment_size = sizes.segment_size;
+    p.segment_stride = sizes.segment_stride;
+    p.film_stride = static_cast<int>(sizes.film_stride());
+    p.aov_channels = aovs.channels;
+    p.camera_root = device.camera_root;
+    p.root = device.root;
+    p.extent = bvh_extent(device.bvh, device.root);
+    p.side = device.bvh.side;
+    std::fill(std::begin(p.aov_offset), std::end(p.aov_offset), -1);
+    for (const AovLayer& layer : aovs.layers)
+        p.aov_offset[layer.kind] = layer.channel;
+    return p;
+}
+
+} // namespace parhelion
