@@ -84,12 +84,12 @@ kernel void accumulate(KERNEL_PARAMETERS) {
     BlockResults gathered;
     gathered.results = results + (long)block * wave.sample_count * BLOCK_PIXELS;
     gathered.stride = params.result_stride;
-    gathered.squares = result_field_count + params.aov_channels;
+    gathered.behind = AOV_CHANNEL(params.aov_channels);
     FilmTile of_film;
     of_film.stride = params.film_stride;
-    of_film.channels = gathered.squares + (HAS(moments) ? 3 : 0);
+    of_film.channels = SPREAD_CHANNEL(params.aov_channels, HAS(moments));
     of_film.high = film + (long)tile * TILE_CELLS(params.filter_reach);
-    int channels = of_film.channels + (HAS(variance) ? spread_channel_count : 0);
+    int channels = FILM_CHANNELS(params.aov_channels, HAS(moments), HAS(variance));
     of_film.low = of_film.high + (long)channels * of_film.stride;
     BadSamples bad;
     bad.counts = statistics + statistic_count * block + statistic_first_fault;

@@ -71,7 +71,7 @@ FN FilmSample placed(FilmSample f, RenderParams params, global const FilterBin* 
 
 /// Nothing gathered yet by the slots from `slot` on.
 FN void clear_results(Results results, RenderParams params, int slot, Real weight, vec2 offset) {
-    int channels = result_field_count + params.aov_channels;
+    int channels = AOV_CHANNEL(params.aov_channels);
     for (int channel = 0; channel < channels; channel++)
         STORE_REAL(result_channel(results, channel) + slot, (Real)0.f);
     STORE_REAL(result_channel(results, result_weight) + slot, weight);

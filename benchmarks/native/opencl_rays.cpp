@@ -48,7 +48,7 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     film.width = film.height = film.crop_width = film.crop_height = side;
     film.filter.kind = FilterKind::box;
     split_.streams = 1;
-    sizes_ = work_sizes(sample_window(film), 1, lanes, result_field_count, split_);
+    sizes_ = work_sizes({sample_window(film)}, 1, lanes, split_);
     auto segments = static_cast<std::size_t>(sizes_.segments);
     work_.path_state = {device.context, "path_state", path_word_count * sizes_.state_stride()};
     work_.shadow_state = {device.context, "shadow_state",
@@ -68,7 +68,7 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     params.segment_stride = sizes_.segment_stride;
     params.film_width = params.film_height = side;
     params.window_width = params.window_height = side;
-    params.blocks_x = sizes_.window.blocks_x;
+    params.blocks_x = sizes_.film.window.blocks_x;
     params.root = params.camera_root = root;
     params.extent = bvh_extent(bvh, root);
     params.side = bvh.side;

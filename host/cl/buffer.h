@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -54,11 +56,14 @@ public:
         write(queue, values);
     }
 
-    /// Host values that kernels only read: a CPU reads them where they are, others get a copy.
-    /// `values` must outlive the buffer and not change.
+    /// Host values that kernels only read: a CPU reads them where they are, if they begin with a
+    /// cache line, as those of a LargeVector do; others get a copy. `values` must outlive the
+    /// buffer and not change.
     static Buffer of(const cl::Context& context, const cl::CommandQueue& queue,
-                     const std::string& name, const LargeVector<T>& values) {
-        if (values.empty() || !shares_host_memory(context))
+                     const std::string& name, std::span<const T> values) {
+        bool in_lines =
+            reinterpret_cast<std::uintptr_t>(values.data()) % LargeAllocator<T>::cache_line == 0;
+        if (values.empty() || !in_lines || !shares_host_memory(context))
             return Buffer(context, queue, name, values.data(), values.size());
         Buffer buffer;
         buffer.count_ = values.size();

@@ -1,7 +1,6 @@
 // From the device's film to an image.
 #include "host/film/film_image.h"
 
-#include "host/error.h"
 #include "host/film/film_reader.h"
 
 #include <fmt/format.h>
@@ -12,40 +11,6 @@
 
 namespace parhelion {
 namespace {
-
-struct AovKindInfo {
-    std::string_view name;
-    int channels;
-    std::string_view suffixes;
-};
-#define AOV_INFO(name, channels, suffixes) AovKindInfo{#name, channels, suffixes},
-constexpr std::array aov_kinds{AOVS(AOV_INFO)};
-static_assert(aov_kinds.size() <= AOV_LIMIT);
-constexpr std::array film_aov_kinds{FILM_AOVS(AOV_INFO)};
-
-/// Place of a kind in its list; the length of the list: there is no such kind.
-template<std::size_t N>
-int kind_of(const std::array<AovKindInfo, N>& kinds, const std::string& name) {
-    auto found = std::find_if(kinds.begin(), kinds.end(),
-                              [&](const AovKindInfo& kind) { return kind.name == name; });
-    return static_cast<int>(found - kinds.begin());
-}
-
-std::string aov_kind_names() {
-    std::string text;
-    for (const AovKindInfo& kind : aov_kinds)
-        text += fmt::format("{}, ", kind.name);
-    for (const AovKindInfo& kind : film_aov_kinds)
-        text += fmt::format("{}{}", kind.name, kind.name == film_aov_kinds.back().name ? "" : ", ");
-    return text;
-}
-
-void check_twice(const std::vector<AovLayer>& layers, const AovRequest& request, int kind) {
-    for (const AovLayer& layer : layers)
-        if (layer.kind == kind || layer.name == request.name)
-            throw InputError(fmt::format("{}: AOV '{}' ({}) is asked for twice",
-                                         request.location.to_string(), request.name, request.kind));
-}
 
 /// Linear Rec. 709 to CIE XYZ (ITU-R BT.709 primaries, D65), rows X, Y, Z: the figures Mitsuba 3
 /// uses.
@@ -104,9 +69,7 @@ void add_main_layer(const FilmReader& film, PixelFormat format, double unit, Ima
 void add_aov_layer(const FilmReader& film, const AovLayer& layer, const SceneFrame& frame,
                    Image& image) {
     const AovKindInfo& kind = aov_kinds[layer.kind];
-    auto means = [&](int channel) {
-        return film.means(result_field_count + layer.channel + channel);
-    };
+    auto means = [&](int channel) { return film.means(AOV_CHANNEL(layer.channel + channel)); };
     for (int c = 0; c < static_cast<int>(kind.suffixes.size()); c++) {
         std::vector<float> values = means(c);
         if (layer.kind == aov_depth) values = scaled(std::move(values), frame.unit());
@@ -117,40 +80,6 @@ void add_aov_layer(const FilmReader& film, const AovLayer& layer, const SceneFra
 }
 
 } // namespace
-
-bool is_film_aov(const AovRequest& request) {
-    return kind_of(film_aov_kinds, request.kind) < film_aov_kind_count;
-}
-
-AovPlan plan_aovs(const Scene& scene) {
-    AovPlan plan;
-    for (const AovRequest& request : scene.integrator.aovs) {
-        bool of_film = is_film_aov(request);
-        int kind =
-            of_film ? kind_of(film_aov_kinds, request.kind) : kind_of(aov_kinds, request.kind);
-        if (!of_film && kind == aov_kind_count)
-            throw InputError(fmt::format("{}: there is no AOV '{}'; there are {}",
-                                         request.location.to_string(), request.kind,
-                                         aov_kind_names()));
-        check_twice(plan.layers, request, of_film ? -1 : kind);
-        check_twice(plan.film_layers, request, of_film ? kind : -1);
-        if (of_film && kind == film_aov_variance && scene.sampler.samples_per_pixel < 2)
-            throw InputError(fmt::format("{}: AOV '{}' needs at least 2 samples per pixel",
-                                         request.location.to_string(), request.kind));
-        if (of_film) {
-            plan.film_layers.push_back({request.name, kind, 0});
-            continue;
-        }
-        plan.layers.push_back({request.name, kind, plan.channels});
-        plan.channels += aov_kinds[kind].channels;
-    }
-    return plan;
-}
-
-int film_channels(const Integrator& integrator, const AovPlan& aovs) {
-    return result_field_count + aovs.channels + (integrator.second_moment ? 3 : 0) +
-           (aovs.film_layers.empty() ? 0 : static_cast<int>(spread_channel_count));
-}
 
 double main_layer_unit(IntegratorKind kind, const SceneFrame& frame) {
     switch (kind) {
@@ -163,14 +92,14 @@ double main_layer_unit(IntegratorKind kind, const SceneFrame& frame) {
     }
 }
 
-Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const Scene& scene,
+Image film_image(const std::vector<float>& film, const FilmLayout& layout, const Scene& scene,
                  const AovPlan& aovs, const SceneFrame& frame) {
     const Film& crop = scene.film;
     Image image;
     image.width = crop.crop_width, image.height = crop.crop_height;
     image.full_width = crop.width, image.full_height = crop.height;
     image.offset_x = crop.crop_x, image.offset_y = crop.crop_y;
-    FilmReader reader(film, sizes, crop);
+    FilmReader reader(film, layout, crop);
     double unit = main_layer_unit(scene.integrator.kind, frame);
     add_main_layer(reader, crop.pixel_format, unit, image);
     for (const AovLayer& layer : aovs.layers)
@@ -186,7 +115,7 @@ Image film_image(const std::vector<float>& film, const WorkSizes& sizes, const S
         constexpr std::string_view suffixes = "RGB";
         for (int c = 0; c < 3; c++)
             add_channel(image, fmt::format("second_moment.{}", suffixes[c]),
-                        scaled(reader.means(result_field_count + aovs.channels + c), unit * unit));
+                        scaled(reader.means(layout.square_channel() + c), unit * unit));
     }
     return image;
 }

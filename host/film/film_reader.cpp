@@ -18,12 +18,12 @@ struct TileRange {
 
 } // namespace
 
-FilmReader::FilmReader(const std::vector<float>& film, const WorkSizes& sizes, const Film& crop)
-    : film_(film), sizes_(sizes), crop_(crop), weights_(sums(result_weight)) {}
+FilmReader::FilmReader(const std::vector<float>& film, const FilmLayout& layout, const Film& crop)
+    : film_(film), layout_(layout), crop_(crop), weights_(sums(result_weight)) {}
 
 template<class F>
 void FilmReader::for_each_cell(int x, int y, F f) const {
-    const SampleWindow& window = sizes_.window;
+    const SampleWindow& window = layout_.window;
     int from_x = x - window.block_x, from_y = y - window.block_y, side = TILE_SIDE(window.reach);
     TileRange columns(from_x, window.reach, window.blocks_x);
     TileRange rows(from_y, window.reach, window.blocks_y);
@@ -48,8 +48,8 @@ std::vector<T> FilmReader::each_pixel(F f) const {
 
 /// High and low part.
 double FilmReader::value(int channel, std::size_t cell) const {
-    std::size_t high = channel * sizes_.film_stride() + cell;
-    return double{film_[high]} + film_[high + sizes_.film_channels * sizes_.film_stride()];
+    std::size_t high = channel * layout_.stride() + cell;
+    return double{film_[high]} + film_[high + layout_.low_part()];
 }
 
 std::vector<double> FilmReader::sums(int channel) const {
@@ -70,7 +70,7 @@ std::vector<float> FilmReader::means(int channel) const {
 
 /// Tiles join as groups of samples do on the device (spread_join).
 FilmReader::Spread FilmReader::spread(int color, int x, int y) const {
-    int first = sizes_.film_channels - spread_channel_count;
+    int first = layout_.spread_channel();
     Spread all;
     for_each_cell(x, y, [&](std::size_t cell) {
         double weight = value(first + spread_weight, cell);
@@ -101,7 +101,7 @@ std::vector<float> FilmReader::variances(int color) const {
 }
 
 std::vector<float> FilmReader::sample_counts() const {
-    std::vector<double> squares = sums(sizes_.film_channels - spread_channel_count + spread_weight);
+    std::vector<double> squares = sums(layout_.spread_channel() + spread_weight);
     std::vector<float> out(squares.size());
     for (std::size_t i = 0; i < out.size(); i++)
         if (squares[i] > 0) out[i] = static_cast<float>(weights_[i] * weights_[i] / squares[i]);

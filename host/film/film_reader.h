@@ -1,8 +1,7 @@
 // What the film's sums say of each pixel: means, and how its samples spread.
 #pragma once
 
-#include "host/scene/scene.h"
-#include "host/waves/pipeline.h"
+#include "host/film/film_layout.h"
 
 #include <vector>
 
@@ -13,7 +12,7 @@ namespace parhelion {
 class FilmReader {
 public:
     /// All must outlive the reader. `film` as the accumulate kernel leaves it.
-    FilmReader(const std::vector<float>& film, const WorkSizes& sizes, const Film& crop);
+    FilmReader(const std::vector<float>& film, const FilmLayout& layout, const Film& crop);
 
     /// Sum over weight. 0 where there is no sample, or where filter weights cancel exactly.
     std::vector<float> means(int channel) const;
@@ -45,7 +44,7 @@ private:
     std::vector<T> each_pixel(F f) const;
 
     const std::vector<float>& film_;
-    const WorkSizes& sizes_;
+    const FilmLayout& layout_;
     const Film& crop_;
     std::vector<double> weights_;
 };

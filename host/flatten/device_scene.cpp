@@ -7,6 +7,7 @@
 #include "host/flatten/light_table.h"
 #include "host/flatten/material_records.h"
 #include "host/flatten/rounding_notes.h"
+#include "host/flatten/scene_arrays.h"
 #include "host/flatten/scene_features.h"
 #include "host/parallel.h"
 
@@ -207,10 +208,9 @@ DeviceScene make_device_scene(const Scene& scene, LightChoice choice) {
 }
 
 std::size_t DeviceScene::bytes() const {
-    auto size = [](const auto& v) { return v.size() * sizeof(v[0]); };
-    return size(primitives) + size(vertices) + size(materials) + size(lights) +
-           size(light_tree.nodes) + size(light_tree.leaves) + size(energy_tables) +
-           size(filter_table) + size(filter_values) + size(bvh.nodes) + size(bvh.leaves);
+    SceneArrays arrays = scene_arrays(*this);
+#define ADD_BYTES(type, name) +arrays.name.size_bytes()
+    return 0 SCENE_BUFFERS(ADD_BYTES);
 }
 
 } // namespace parhelion

@@ -44,6 +44,7 @@ struct DeviceScene {
     std::vector<std::string> notes; ///< what single precision makes of the scene that the user
                                     ///< should be told, one line each; beside Scene::notes
 
+    /// Of all arrays that kernels read.
     std::size_t bytes() const;
 };
 

@@ -3,28 +3,24 @@
 
 #include "host/flatten/device_scene.h"
 
+#include <span>
+
 namespace parhelion {
 
+#define SCENE_SPAN(type, name) std::span<const type> name;
+/// Into a DeviceScene that must outlive them and not change.
 struct SceneArrays {
-    const decltype(Bvh::nodes)& bvh_nodes;
-    const decltype(Bvh::leaves)& bvh_leaves;
-    const LargeVector<PrimitiveRecord>& primitives;
-    const LargeVector<VertexRecord>& vertices;
-    const std::vector<MaterialRecord>& materials;
-    const std::vector<LightRecord>& lights;
-    const std::vector<LightNodeRecord>& light_nodes;
-    const std::vector<int>& light_leaves;
-    const std::vector<float>& energy_tables;
-    const std::vector<FilterBin>& filter_table;
-    const std::vector<float>& filter_values;
+    SCENE_BUFFERS(SCENE_SPAN)
 };
+#undef SCENE_SPAN
 
 /// The table, or one row of zeros where it has none: kernels look at row 0 for lanes that have hit
 /// nothing.
 template<class Table>
-const Table& with_a_row(const Table& table) {
-    static const Table zeros(1, typename Table::value_type{});
-    return table.empty() ? zeros : table;
+std::span<const typename Table::value_type> with_a_row(const Table& table) {
+    static const typename Table::value_type zeros{};
+    if (table.empty()) return {&zeros, 1};
+    return table;
 }
 
 inline SceneArrays scene_arrays(const DeviceScene& scene) {

@@ -1,7 +1,7 @@
 // The one place that decides which features a scene's kernels have.
 #include "host/flatten/scene_features.h"
 
-#include "host/film/film_image.h"
+#include "host/flatten/aov_plan.h"
 #include "host/flatten/filter_table.h"
 
 #include <fmt/format.h>

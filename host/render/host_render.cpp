@@ -53,14 +53,15 @@ template<class Real>
 void trace_image(const HostLaunch<Real>& common, const WorkSizes& sizes, int samples,
                  Progress& progress) {
     auto start = Clock::now();
-    WaveSchedule schedule(static_cast<int>(sizes.window.tiles()), samples, sizes.blocks_per_wave,
-                          sizes.samples_per_wave);
+    WaveSchedule schedule(static_cast<int>(sizes.film.window.tiles()), samples,
+                          sizes.blocks_per_wave, sizes.samples_per_wave);
     while (auto wave = schedule.take()) {
         HostLaunch<Real> launch = common;
         launch.wave = *wave;
         trace_wave(launch, sizes.segments);
         double done = schedule.finish(*wave);
-        double paths = done * samples * static_cast<double>(sizes.window.tiles()) * BLOCK_PIXELS;
+        double paths =
+            done * samples * static_cast<double>(sizes.film.window.tiles()) * BLOCK_PIXELS;
         progress.update(done, fmt::format("{:.3f} Mpaths/s", paths / seconds_since(start) / 1e6));
     }
 }
@@ -93,8 +94,8 @@ void render_flat(const Scene& scene, const DeviceScene& flat, const RenderOption
     AovPlan aovs = plan_aovs(scene);
     WorkSplit split = options.split;
     split.streams = 1;
-    WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, 1,
-                                 film_channels(scene.integrator, aovs), split);
+    WorkSizes sizes =
+        work_sizes(film_layout(scene, aovs), scene.sampler.samples_per_pixel, 1, split);
     WaveMemory<Real> memory(sizes);
     HostLaunch<Real> launch{scene_arrays(flat), render_params(scene, flat, sizes, aovs),
                             render_features(flat, options), WaveParams{}, memory};
@@ -103,7 +104,8 @@ void render_flat(const Scene& scene, const DeviceScene& flat, const RenderOption
     result.report.render_seconds = seconds_since(start);
     add_counts(sum_statistics(memory), result.report);
     result.report.bad_samples = first_bad_samples({memory.bad_samples});
-    result.image = film_image(film_floats(std::move(memory.film)), sizes, scene, aovs, flat.frame);
+    result.image =
+        film_image(film_floats(std::move(memory.film)), sizes.film, scene, aovs, flat.frame);
 }
 
 } // namespace

@@ -40,7 +40,7 @@ void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
                  const RenderParams& params, bool next_event, Progress& progress) {
     auto start = Clock::now();
     int samples = scene.sampler.samples_per_pixel;
-    int blocks = static_cast<int>(sizes.window.tiles());
+    int blocks = static_cast<int>(sizes.film.window.tiles());
     double paths = static_cast<double>(samples) * blocks * BLOCK_PIXELS;
     WaveSchedule schedule(blocks, samples, sizes.blocks_per_wave, sizes.samples_per_wave);
     std::mutex showing;
@@ -86,17 +86,16 @@ int stream_count(const WorkSplit& split, const Device& device) {
 
 /// Told before anything is rendered: systems give out memory that they do not have, and end the
 /// program when it is used.
-void check_film_memory(const Scene& scene, const WorkSizes& sizes, const Device& device) {
-    double film =
-        2.0 * static_cast<double>(sizes.film_channels * sizes.film_stride()) * sizeof(float);
+void check_film_memory(const Scene& scene, const FilmLayout& layout, const Device& device) {
+    double film = static_cast<double>(layout.floats()) * sizeof(float);
     // A CPU's memory holds what is read from the film, too.
     double needed = device.is_cpu ? 2.0 * film : film;
     if (needed <= static_cast<double>(device.memory_bytes)) return;
     throw InputError(fmt::format(
         "{}: a film of {} x {} pixels and {} channels takes {:.1f} GB; {} has {:.1f} GB (accepted: "
         "a smaller --size, or a part of it, --crop)",
-        scene.file, scene.film.crop_width, scene.film.crop_height, sizes.film_channels,
-        needed / 1e9, device.name, static_cast<double>(device.memory_bytes) / 1e9));
+        scene.file, scene.film.crop_width, scene.film.crop_height, layout.channels(), needed / 1e9,
+        device.name, static_cast<double>(device.memory_bytes) / 1e9));
 }
 
 } // namespace
@@ -150,9 +149,9 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
 
     WorkSplit split = options.split;
     split.streams = options.checked ? 1 : stream_count(split, device.device);
-    WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, lanes,
-                                 film_channels(scene.integrator, aovs), split);
-    check_film_memory(scene, sizes, device.device);
+    WorkSizes sizes =
+        work_sizes(film_layout(scene, aovs), scene.sampler.samples_per_pixel, lanes, split);
+    check_film_memory(scene, sizes.film, device.device);
 
     progress.start("building the BVH");
     auto start = Clock::now();
@@ -198,7 +197,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
         "{:.2f} Mpaths/s, {:.2f} Mrays/s",
         static_cast<double>(result.report.paths) / result.report.render_seconds / 1e6,
         static_cast<double>(result.report.rays()) / result.report.render_seconds / 1e6));
-    result.image = film_image(pipeline.read_film(), sizes, scene, aovs, flat.frame);
+    result.image = film_image(pipeline.read_film(), sizes.film, scene, aovs, flat.frame);
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include "host/film/bad_samples.h"
 #include "host/flatten/scene_frame.h"
 #include "host/image/misfits.h"
+#include "host/waves/stage_report.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -13,15 +14,6 @@
 #include <vector>
 
 namespace parhelion {
-
-struct StageReport {
-    std::string name;
-    double kernel_seconds = 0.0; ///< on the device, summed over launches
-    std::uint64_t launches = 0;
-    double compile_seconds = 0.0;
-    bool cached = false;
-    std::vector<std::string> features; ///< what this stage's kernel was compiled with
-};
 
 /// A kind of fault that samples were left out for.
 struct FaultCount {

@@ -1,7 +1,6 @@
 // One sample of an image, vertex by vertex: a pool of one path, looked at between the stages.
 #include "host/twin/sample_trace.h"
 
-#include "host/film/film_image.h"
 #include "host/waves/render_params.h"
 
 #include <bit>
@@ -12,13 +11,13 @@ namespace parhelion {
 namespace {
 
 /// A window of one pixel and a wave of one sample of it.
-WorkSizes sizes_of_one(const Scene& scene, int film_channels, int x, int y) {
+WorkSizes sizes_of_one(const Scene& scene, const AovPlan& aovs, int x, int y) {
     WorkSizes s;
-    s.window = sample_window(scene.film);
-    s.window.x = s.window.block_x = x, s.window.y = s.window.block_y = y;
-    s.window.width = s.window.height = s.window.blocks_x = s.window.blocks_y = 1;
+    s.film = film_layout(scene, aovs);
+    SampleWindow& window = s.film.window;
+    window.x = window.block_x = x, window.y = window.block_y = y;
+    window.width = window.height = window.blocks_x = window.blocks_y = 1;
     s.segment_stride = s.segment_size;
-    s.film_channels = film_channels;
     return s;
 }
 
@@ -159,7 +158,7 @@ void add_up(OnePath& path, const WaveMemory<float>& memory, SampleTrace& trace) 
 
 SampleTrace trace_sample(const Scene& scene, const DeviceScene& flat, int x, int y, int sample) {
     AovPlan aovs = plan_aovs(scene);
-    WorkSizes sizes = sizes_of_one(scene, film_channels(scene.integrator, aovs), x, y);
+    WorkSizes sizes = sizes_of_one(scene, aovs, x, y);
     WaveMemory<float> memory(sizes);
     // Streams store whether a shadow ray was blocked; their answers are those of packets.
     HostLaunch<float> launch{scene_arrays(flat), render_params(scene, flat, sizes, aovs),

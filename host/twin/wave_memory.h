@@ -26,11 +26,11 @@ struct WaveMemory {
     explicit WaveMemory(const WorkSizes& s)
         : path_state(path_word_count * s.state_stride()),
           shadow_state(shadow_word_count * s.state_stride()),
-          results(s.result_channels() * s.result_stride()),
+          results(s.film.result_channels() * s.result_stride()),
           counts(2 * static_cast<std::size_t>(s.segments)),
           statistics(statistic_count *
                      static_cast<std::size_t>(std::max(s.segments, s.blocks_per_wave))),
-          bad_samples(s.bad_sample_words()), film(2 * s.film_channels * s.film_stride()) {}
+          bad_samples(s.bad_sample_words()), film(s.film.floats()) {}
 };
 #undef WORK_MEMBER
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "host/cl/opencl.h"
-#include "host/flatten/device_scene.h"
+#include "kernels/device/buffers.h"
+#include "kernels/shared/types.h"
 
 namespace parhelion {
 

@@ -5,31 +5,19 @@
 #include "host/flatten/scene_arrays.h"
 
 namespace parhelion {
-namespace {
-
-template<class T>
-Buffer<T> make_buffer(const RenderDevice& d, const char* name, const LargeVector<T>& values) {
-    return Buffer<T>::of(d.context, d.queue, name, values);
-}
-
-template<class T>
-Buffer<T> make_buffer(const RenderDevice& d, const char* name, const std::vector<T>& values) {
-    return Buffer<T>(d.context, d.queue, name, values.data(), values.size());
-}
-
-} // namespace
 
 Pipeline::Pipeline(RenderDevice& device, const StageOptions& options)
     : device_(device), stages_(compile_stages(device, options)) {}
 
 void Pipeline::upload(const DeviceScene& scene) {
     SceneArrays arrays = scene_arrays(scene);
-#define UPLOAD(type, name) scene_.name = make_buffer(device_, #name, arrays.name);
+#define UPLOAD(type, name)                                                                         \
+    scene_.name = Buffer<type>::of(device_.context, device_.queue, #name, arrays.name);
     SCENE_BUFFERS(UPLOAD)
 }
 
 void Pipeline::allocate(const WorkSizes& s, const RenderParams& params) {
-    film_ = {device_.context, "film", 2 * s.film_channels * s.film_stride()};
+    film_ = {device_.context, "film", s.film.floats()};
     film_.fill_zero(device_.queue);
     device_.queue.finish();
     for (int i = 0; i < s.streams; i++) {

@@ -1,7 +1,7 @@
 // What all kernels of a render are told.
 #pragma once
 
-#include "host/film/film_image.h"
+#include "host/waves/wave_stream.h"
 
 namespace parhelion {
 

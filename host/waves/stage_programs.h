@@ -1,8 +1,8 @@
 // Compiling the stages' programs, side by side, and what was compiled before not again.
 #pragma once
 
-#include "host/render/report.h"
 #include "host/waves/render_device.h"
+#include "host/waves/stage_report.h"
 #include "host/waves/stages.h"
 
 #include <string>

@@ -2,7 +2,7 @@
 // use of.
 #pragma once
 
-#include "host/flatten/device_scene.h"
+#include "host/feature_set.h"
 
 #include <array>
 #include <string>

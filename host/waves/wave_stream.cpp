@@ -33,10 +33,9 @@ std::size_t WaveBuffers::bytes() const {
     return 0 WAVE_BUFFERS(ADD_BYTES);
 }
 
-WorkSizes work_sizes(const SampleWindow& window, int samples, int lanes, int film_channels,
-                     const WorkSplit& split) {
+WorkSizes work_sizes(const FilmLayout& film, int samples, int lanes, const WorkSplit& split) {
     WorkSizes s;
-    s.window = window;
+    s.film = film;
     s.streams = split.streams;
     s.work_group_size = split.work_group_size;
     // What is added up together must be in one wave.
@@ -47,7 +46,7 @@ WorkSizes work_sizes(const SampleWindow& window, int samples, int lanes, int fil
     constexpr int usual = 16;
     // Every stream has blocks of its own.
     std::int64_t streams = split.streams;
-    std::int64_t blocks = (static_cast<std::int64_t>(window.tiles()) + streams - 1) / streams;
+    std::int64_t blocks = (static_cast<std::int64_t>(film.window.tiles()) + streams - 1) / streams;
     int to_fill = static_cast<int>(std::max<std::int64_t>(usual, groups / blocks));
     s.samples_per_wave = std::min(samples, std::min(to_fill, groups) / together * together);
     s.blocks_per_wave =
@@ -59,7 +58,6 @@ WorkSizes work_sizes(const SampleWindow& window, int samples, int lanes, int fil
     s.segment_stride = s.segment_size + (lanes == 1 ? 0 : SEGMENT_PADDING);
     s.segments =
         rounded_up((s.path_capacity + s.segment_size - 1) / s.segment_size, split.work_group_size);
-    s.film_channels = film_channels;
     if (s.state_stride() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw InputError(
             fmt::format("{} segments of {} paths are more than the device counts (--pool-paths, "
@@ -90,7 +88,7 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
     const cl::Context& context = device.context;
     work_.path_state = {context, "path_state", path_word_count * s.state_stride()};
     work_.shadow_state = {context, "shadow_state", shadow_word_count * s.state_stride()};
-    work_.results = {context, "results", s.result_channels() * s.result_stride()};
+    work_.results = {context, "results", s.film.result_channels() * s.result_stride()};
     work_.counts = {context, "counts", 2 * static_cast<std::size_t>(s.segments)};
     work_.statistics = {context, "statistics", statistic_count * counted};
     work_.bad_samples = {context, "bad_samples", s.bad_sample_words()};

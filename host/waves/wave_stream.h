@@ -2,7 +2,8 @@
 #pragma once
 
 #include "host/cl/buffer.h"
-#include "host/film/sample_window.h"
+#include "host/film/film_layout.h"
+#include "host/flatten/scene_arrays.h"
 #include "host/waves/stage_programs.h"
 
 #include <sys/types.h> // ulong, as the kernels call it
@@ -29,32 +30,23 @@ struct WaveBuffers {
     std::size_t bytes() const;
 };
 
-/// Floats from one field or channel to the next: arrays a power of two apart would share the same
-/// few places of a cache.
-constexpr std::size_t odd_lines(std::size_t floats) { return 16 * ((floats + 15) / 16 | 1); }
-
 /// Sizes that follow from film, samples and split, of one stream.
 struct WorkSizes {
     int streams = 1;
     int samples_per_wave = 1, blocks_per_wave = 1, path_capacity = 16;
     int segments = 1, segment_size = 16, segment_stride = 32;
     int work_group_size = 1;
-    SampleWindow window;
-    int film_channels = 5;
+    FilmLayout film;
 
-    /// Two more than the film's where samples are splatted: their offsets in their pixels.
-    std::size_t result_channels() const { return film_channels + (window.reach > 0 ? 2 : 0); }
-    std::size_t bad_sample_words() const { return bad_sample_field_count * window.tiles(); }
+    std::size_t bad_sample_words() const { return bad_sample_field_count * film.window.tiles(); }
     std::size_t result_stride() const { return odd_lines(path_capacity); }
-    std::size_t film_stride() const { return odd_lines(window.tiles() * window.tile_cells()); }
     std::size_t state_stride() const {
         return odd_lines(static_cast<std::size_t>(segments) * segment_stride);
     }
 };
 
 /// `split.streams` must be chosen.
-WorkSizes work_sizes(const SampleWindow& window, int samples, int lanes, int film_channels,
-                     const WorkSplit& split);
+WorkSizes work_sizes(const FilmLayout& film, int samples, int lanes, const WorkSplit& split);
 
 /// Binds buffers and parameters, all but the wave and the depth.
 void bind_arguments(cl::Kernel& kernel, const SceneBuffers& scene, const WaveBuffers& work,

@@ -21,13 +21,12 @@
 // element type, name: what a render works on
 //   path_state    words of PATH_FIELDS x state_stride: live paths, packed at the front of each segment
 //   shadow_state  words of SHADOW_FIELDS x state_stride: shadow rays, likewise
-//   results       RESULT_FIELDS + AOV channels, x result_stride: what each path slot has gathered;
-//                 if HAS(filter_splatting), two more: its offset from the centre of its pixel
+//   results       RESULT_CHANNELS x result_stride: what each path slot has gathered
 //   counts        2 a segment: live paths, shadow rays
 //   statistics    STATISTICS and FAULTS a segment
 //   bad_samples   BAD_SAMPLE_FIELDS a block of the film: its first sample that was not finite
-//   film          2 floats (high and low part of a sum) x channels x film_stride; a channel holds
-//                 a tile a block
+//   film          2 floats (high and low part of a sum) x FILM_CHANNELS x film_stride; a channel
+//                 holds a tile a block
 #define WAVE_BUFFERS(X)                                                                            \
     X(float, path_state) X(float, shadow_state) X(float, results)                                  \
     X(int, counts) X(ulong, statistics) X(int, bad_samples)
@@ -52,13 +51,21 @@
 #define PATH_FIELDS(X) RAY_FIELDS(X) CARRIED_FIELDS(X) HIT_FIELDS(X)
 #define SHADOW_FIELDS(X) RAY_FIELDS(X) BROUGHT_FIELDS(X) X(Int, blocked, HAS(ray_streams))
 
-// What a path slot gathers; the AOV channels follow.
+// What a path slot gathers, and the film sums up.
 #define RESULT_FIELDS(X) X(float, r) X(float, g) X(float, b) X(float, alpha) X(float, weight)
 
-// Film channels before the AOVs: the results in the same order, then the squares of r, g, b if HAS(moments). Last, if
-// HAS(variance), with g the square of a sample's weight: sum of g; and of r, g, b each mean (sum of g x / sum of g) and spread (sum
-// of g (x - mean)^2).
+// With g the square of a sample's weight: sum of g; and of r, g, b each mean (sum of g x / sum of g) and spread (sum of
+// g (x - mean)^2).
 #define SPREAD_CHANNELS(X) X(weight) X(mean_r) X(mean_g) X(mean_b) X(spread_r) X(spread_g) X(spread_b)
+
+// Channels of results and film, behind each other: RESULT_FIELDS, `aovs` channels of AOVs; then of results, if
+// HAS(filter_splatting), the sample's offset from the centre of its pixel, x and y; of the film, if HAS(moments), the squares of
+// r, g, b, and if HAS(variance), SPREAD_CHANNELS.
+#define AOV_CHANNEL(channel) (result_field_count + (channel))
+#define RESULT_CHANNELS(aovs, splatted) (AOV_CHANNEL(aovs) + ((splatted) ? 2 : 0))
+#define SQUARE_CHANNEL(aovs) AOV_CHANNEL(aovs)
+#define SPREAD_CHANNEL(aovs, moments) (SQUARE_CHANNEL(aovs) + ((moments) ? 3 : 0))
+#define FILM_CHANNELS(aovs, moments, variance) (SPREAD_CHANNEL(aovs, moments) + ((variance) ? (int)spread_channel_count : 0))
 
 // What can go wrong with a sample, and the stage that finds it: numbers that are not finite in its camera ray, where a ray has
 // hit, its AOVs, what it sees, what it gets from a light, its next direction and throughput, and the sum of all it has gathered.

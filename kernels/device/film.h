@@ -24,7 +24,7 @@ FN void film_add(FilmTile film, int channel, int cell, TwoReal v) {
 typedef struct {
     global const Scalar* results; // from the block's first slot on
     long stride;                  // floats between two channels
-    int squares;                  // the first channel of second moments, behind all results
+    int behind;                   // the first channel behind AOVs: offsets; the film's squares
 } BlockResults;
 
 FN Real block_result(BlockResults b, int channel, Int slot) {
@@ -68,7 +68,7 @@ FN SampleGroup sample_group(BlockResults block, WaveParams wave, int part, int f
 FN Real group_value(BlockResults block, const SampleGroup* g, int channel, int n) {
     if (channel <= result_b) return g->radiance[channel][n];
     if (channel == result_weight) return R(1.);
-    if (channel >= block.squares) return square(g->radiance[channel - block.squares][n]);
+    if (channel >= block.behind) return square(g->radiance[channel - block.behind][n]);
     return sel(lanesOf(g->good[n]), block_result(block, channel, g->slot[n]), R(0.));
 }
 

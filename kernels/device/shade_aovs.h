@@ -9,14 +9,13 @@
 FN void write_aov1(ShadeWork w, PathVertex v, int kind, int channel, Real value) {
     int offset = w.params->aov_offset[kind];
     if (offset >= 0)
-        add_result(w.results, result_field_count + offset + channel, v.path.slot, value,
-                   maskBits(v.hit));
+        add_result(w.results, AOV_CHANNEL(offset + channel), v.path.slot, value, maskBits(v.hit));
 }
 FN void write_aov3(ShadeWork w, PathVertex v, int kind, vec3 value) {
     int offset = w.params->aov_offset[kind];
     if (offset >= 0)
-        add_result3(w.results, result_field_count + offset, v.path.slot,
-                    sel3(v.hit, value, splat3(R(0.))), maskBits(v.hit));
+        add_result3(w.results, AOV_CHANNEL(offset), v.path.slot, sel3(v.hit, value, splat3(R(0.))),
+                    maskBits(v.hit));
 }
 
 FN void write_aovs(ShadeWork w, PathVertex v, Material m) {

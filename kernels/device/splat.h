@@ -91,8 +91,8 @@ typedef struct {
 FN void group_weights(GroupWeights* w, BlockResults block, const SampleGroup* g,
                       global const float* filter, int reach) {
     for (int n = 0; n < g->count; n++)
-        splat_weights(&w->of[n], filter, reach, block_result(block, block.squares, g->slot[n]),
-                      block_result(block, block.squares + 1, g->slot[n]), g->weight[n]);
+        splat_weights(&w->of[n], filter, reach, block_result(block, block.behind, g->slot[n]),
+                      block_result(block, block.behind + 1, g->slot[n]), g->weight[n]);
 }
 
 /// Splats a group of samples of each part of a block to its tile.

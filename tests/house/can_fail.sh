@@ -8,7 +8,7 @@ failures=0
 
 good_tree() {
     rm -rf -- "$scratch/tree"
-    mkdir -p "$scratch"/tree/{kernels/{shared,device},host/{scene,cl,bvh,render,image},tests/mutations}
+    mkdir -p "$scratch"/tree/{kernels/{shared,device},host/{scene,cl,bvh,film,render,image},tests/mutations}
     cd "$scratch/tree"
     echo '// lane' >kernels/shared/lane.h
     printf '// math: 1.5 and epsilon and native_sin( in a comment are fine\n/* so is\n 2.5 mad( */\nfloat x = 1.5f + 1e3f + .5f; %s\n' \
@@ -17,13 +17,14 @@ good_tree() {
     echo '// bsdf' >kernels/shared/bsdf.h
     printf '// list\n#include "shared/lane.h"\n#include "shared/math.h"\n#include "shared/bsdf.h"\n' >kernels/shared/shared.h
     printf '// stage\n#include "shared/shared.h"\n' >kernels/shade.cl
-    for folder in scene cl bvh render image; do echo '// code' >host/$folder/code.cpp; done
+    for folder in scene cl bvh film render image; do echo '// code' >host/$folder/code.cpp; done
 }
 
 # must_find CHECK TEXT LINE FILE: with LINE appended to FILE, CHECK fails and says TEXT.
 must_find() {
     local output status=0
     good_tree
+    mkdir -p "$(dirname -- "$4")"
     printf '%b\n' "$3" >>"$4"
     output=$("$house" "$1" "$scratch/tree") || status=$?
     if ((status == 0)) || [[ $output != *"$2"* ]]; then
@@ -49,7 +50,10 @@ must_find includes "host/cl may not" '#include "host/scene/scene.h"' host/cl/cod
 must_find includes "host/bvh may not" '#include "host/cl/device.h"' host/bvh/code.cpp
 must_find includes "host/bvh may not" '#include "host/render/film.h"' host/bvh/code.cpp
 must_find includes "host/image may not" '#include "host/cl/device.h"' host/image/code.cpp
+must_find includes "host/film may not" '#include "host/waves/pipeline.h"' host/film/code.cpp
 must_find includes "host/render may not" '#include "host/commands/render.h"' host/render/code.cpp
+must_find includes "host itself" '#include "host/cl/device.h"' host/error.h
+must_find includes "has its floor" '// a room' host/attic/code.cpp
 must_find includes "host may not" '#include "../cl/device.h"' host/scene/code.cpp
 must_find numerics "inexact" 'x = native_sin(y);' kernels/shade.cl
 must_find numerics "inexact" 'x = mad(a, b, c);' kernels/shade.cl

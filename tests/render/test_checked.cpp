@@ -34,8 +34,8 @@ const char* left_buffer(const Scene& scene, const DeviceScene& flat) {
     AovPlan aovs = plan_aovs(scene);
     WorkSplit split;
     split.streams = 1;
-    WorkSizes sizes = work_sizes(sample_window(scene.film), scene.sampler.samples_per_pixel, 16,
-                                 film_channels(scene.integrator, aovs), split);
+    WorkSizes sizes =
+        work_sizes(film_layout(scene, aovs), scene.sampler.samples_per_pixel, 16, split);
     pipeline.upload(flat);
     pipeline.allocate(sizes, render_params(scene, flat, sizes, aovs));
     WaveStream& stream = pipeline.streams().front();

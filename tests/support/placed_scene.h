@@ -24,8 +24,7 @@ inline RenderParams params_of(const Scene& scene, const DeviceScene& device) {
     AovPlan aovs = plan_aovs(scene);
     WorkSplit split;
     split.streams = 1;
-    WorkSizes sizes =
-        work_sizes(sample_window(scene.film), 1, 1, result_field_count + aovs.channels, split);
+    WorkSizes sizes = work_sizes(film_layout(scene, aovs), 1, 1, split);
     return render_params(scene, device, sizes, aovs);
 }
 

@@ -40,8 +40,7 @@ void run_every_stage(const Scene& scene, const DeviceScene& whole, const DeviceS
     AovPlan aovs = plan_aovs(scene);
     WorkSplit split;
     split.streams = 1;
-    WorkSizes sizes =
-        work_sizes(sample_window(scene.film), 4, 1, film_channels(scene.integrator, aovs), split);
+    WorkSizes sizes = work_sizes(film_layout(scene, aovs), 4, 1, split);
     WaveMemory<float> memory(sizes);
     HostLaunch<float> launch{scene_arrays(seen), render_params(scene, whole, sizes, aovs),
                              whole.features.on(), WaveParams{0, sizes.blocks_per_wave, 0, 4},
