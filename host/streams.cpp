@@ -42,13 +42,18 @@ StandardStreams::StandardStreams() {
         if (::fcntl(stream, F_GETFD) < 0) // the lowest number that is free: this one
             static_cast<void>(::open("/dev/null", O_RDONLY));
     wants_broken_pipe_ignored_ = std::signal(SIGPIPE, SIG_IGN) == SIG_IGN;
-    std::signal(SIGXFSZ, SIG_IGN);
+    wants_file_limit_ignored_ = std::signal(SIGXFSZ, SIG_IGN) == SIG_IGN;
 }
 
 void StandardStreams::end_by_broken_pipe() const {
     if (wants_broken_pipe_ignored_) return;
     std::signal(SIGPIPE, SIG_DFL);
     std::raise(SIGPIPE);
+}
+
+void StandardStreams::give_back() const {
+    if (!wants_broken_pipe_ignored_) std::signal(SIGPIPE, SIG_DFL);
+    if (!wants_file_limit_ignored_) std::signal(SIGXFSZ, SIG_DFL);
 }
 
 void print(std::string_view text) {

@@ -19,8 +19,13 @@ public:
     /// the caller of this program wants that signal ignored.
     void end_by_broken_pipe() const;
 
+    /// Signals are again what the caller of this program had them to be, for one that takes its
+    /// place.
+    void give_back() const;
+
 private:
     bool wants_broken_pipe_ignored_;
+    bool wants_file_limit_ignored_;
 };
 
 /// Nobody reads standard output any more: nothing is left to do.

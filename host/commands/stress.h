@@ -3,8 +3,21 @@
 
 #include "host/commands/command_line.h"
 
+#include <functional>
+#include <optional>
+#include <string>
+
 namespace parhelion {
 
-Subcommand stress_subcommand();
+struct StressCommand {
+    bool quick = false, full = false, list = false, quiet = false, force = false;
+    std::string filter, report_folder, json_file, device;
+    std::optional<std::uint32_t> seed;
+};
+
+/// The program that runs it, beside this one.
+inline constexpr const char* stress_program = "parhelion-stress";
+
+Subcommand stress_subcommand(std::function<int(const StressCommand&)> run);
 
 } // namespace parhelion

@@ -1,15 +1,16 @@
 // What a device cannot take is refused before anything is compiled or launched.
 #include "host/cl/work_groups.h"
 #include "host/error.h"
+#include "host/numerics/every_kind_scene.h"
 #include "host/render/path_tracer.h"
 #include "host/waves/stage_programs.h"
 #include "tests/support/device.h"
-#include "tests/support/every_kind_scene.h"
 
 #include <catch2/catch.hpp>
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 TEST_CASE("Film: one that the device's memory does not hold is refused before any work",
           "[device]") {

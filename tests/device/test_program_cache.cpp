@@ -1,8 +1,8 @@
 // The cache of compiled programs never changes a result: fresh, warm, damaged in any way, or not
 // writable.
+#include "host/numerics/every_kind_scene.h"
 #include "host/render/path_tracer.h"
 #include "tests/support/device.h"
-#include "tests/support/every_kind_scene.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -18,6 +18,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 namespace fs = std::filesystem;
 
 namespace {

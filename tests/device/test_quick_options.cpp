@@ -1,13 +1,14 @@
 // The compiler options that only save time: every stage compiles with them, and computes the same.
+#include "host/numerics/every_kind_scene.h"
 #include "host/render/path_tracer.h"
 #include "host/waves/stages.h"
 #include "tests/support/device.h"
-#include "tests/support/every_kind_scene.h"
 
 #include <catch2/catch.hpp>
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

@@ -1,10 +1,10 @@
 // Host and device compute the same bits: every probe, in every way to compile it.
-#include "host/stress/probes.h"
+#include "host/numerics/probes.h"
 #include "tests/support/device.h"
 
 using namespace parhelion;
 using namespace parhelion::test;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 namespace {
 

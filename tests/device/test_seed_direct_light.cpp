@@ -5,7 +5,7 @@
 #include "host/scene/load.h"
 #include "tests/support/traversal.h"
 
-#include "host/stress/shapes.h"
+#include "host/numerics/shapes.h"
 #include "tests/support/skip.h"
 
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 // The stress catalogue in small: every row of the list, and every check holds.
-#include "host/stress/catalogue.h"
-#include "host/stress/report.h"
+#include "host/catalogue/catalogue.h"
+#include "host/catalogue/report.h"
 #include "tests/support/device.h"
 
 using namespace parhelion;

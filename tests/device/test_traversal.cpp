@@ -1,8 +1,8 @@
 // The kernels `intersect` and `shadow` find what trying every primitive finds, to the bit.
 #include "tests/support/traversal.h"
 
+#include "host/numerics/shapes.h"
 #include "host/scene/mesh_obj.h"
-#include "host/stress/shapes.h"
 #include "tests/support/skip.h"
 
 #include <filesystem>

@@ -2,8 +2,8 @@
 // counted.
 #include "tests/support/traversal.h"
 
+#include "host/numerics/shapes.h"
 #include "host/scene/mesh_obj.h"
-#include "host/stress/shapes.h"
 #include "tests/support/skip.h"
 
 #include <embree3/rtcore.h>

@@ -1,11 +1,11 @@
 // No ray from inside a closed mesh gets out on the device, wherever the mesh is and however large.
 #include "tests/support/traversal.h"
 
-#include "host/stress/ray_rows.h"
+#include "host/catalogue/ray_rows.h"
 
 using namespace parhelion;
 using namespace parhelion::test;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 namespace {
 

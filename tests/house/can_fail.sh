@@ -52,6 +52,8 @@ must_find includes "host/bvh may not" '#include "host/render/film.h"' host/bvh/c
 must_find includes "host/image may not" '#include "host/cl/device.h"' host/image/code.cpp
 must_find includes "host/film may not" '#include "host/waves/pipeline.h"' host/film/code.cpp
 must_find includes "host/render may not" '#include "host/commands/render.h"' host/render/code.cpp
+must_find includes "host/numerics may not" '#include "host/catalogue/rows.h"' host/numerics/code.cpp
+must_find includes "host/commands may not" '#include "host/numerics/shapes.h"' host/commands/code.cpp
 must_find includes "host itself" '#include "host/cl/device.h"' host/error.h
 must_find includes "has its floor" '// a room' host/attic/code.cpp
 must_find includes "host may not" '#include "../cl/device.h"' host/scene/code.cpp

@@ -99,8 +99,9 @@ host_rooms=(
     "waves scene cl flatten film"
     "twin scene flatten film waves"
     "render scene image flatten film waves twin"
-    "stress scene image cl bvh flatten film waves twin render"
-    "commands scene image cl bvh flatten film waves twin render stress"
+    "numerics scene image cl bvh flatten film waves twin render"
+    "commands scene image cl bvh flatten film waves twin render"
+    "catalogue scene image cl bvh flatten film waves twin render numerics commands"
 )
 
 # No circle and no arrow upwards: a room includes what stands before it.

@@ -1,7 +1,7 @@
 // The numbers of random scenes: ordinary ones, or from all that there are.
 #pragma once
 
-#include "host/stress/measure.h"
+#include "host/numerics/measure.h"
 #include "tests/random_scenes/random_scene.h"
 
 #include <fmt/format.h>
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    stress::Random random_;
+    numerics::Random random_;
     bool extreme_;
 };
 

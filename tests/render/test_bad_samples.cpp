@@ -1,9 +1,9 @@
 // No silent bad sample: what is not finite is left out, counted by the stage that made it, and
 // located, the same however the work is split.
 #include "host/commands/bad_sample_warning.h"
+#include "host/numerics/every_kind_scene.h"
 #include "host/render/host_render.h"
 #include "host/twin/sample_trace.h"
-#include "tests/support/every_kind_scene.h"
 #include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
@@ -16,6 +16,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 using Catch::Contains;
 
 namespace {

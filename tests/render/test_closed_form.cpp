@@ -1,7 +1,7 @@
 // Every scene of scenes/closed_form against its truth: error against the right answer, not against
 // another renderer.
-#include "host/stress/closed_form_truth.h"
-#include "host/stress/statistics.h"
+#include "host/numerics/closed_form_truth.h"
+#include "host/numerics/statistics.h"
 #include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@
 namespace {
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 using closed_form::Check;
 using closed_form::Row;
 
@@ -81,11 +81,11 @@ TEST_CASE("closed forms without noise: every pixel is right to the bit or to rou
 
 TEST_CASE("closed forms with noise: the mean of independent seeds is the truth within its error") {
     std::vector<Row> rows = rows_with({Check::mean_z_test});
-    double level = stress::sidak_level(family_level, 3 * rows.size());
+    double level = numerics::sidak_level(family_level, 3 * rows.size());
     for (const Row& row : rows) {
         INFO(row.name);
         Scene scene = load_row(row);
-        std::array<stress::Mean, 3> statistics;
+        std::array<numerics::Mean, 3> statistics;
         std::array<double, 3> truth{};
         for (int seed = 0; seed < seeds; seed++) {
             scene.sampler.seed = 1000 + seed;
@@ -102,7 +102,7 @@ TEST_CASE("closed forms with noise: the mean of independent seeds is the truth w
                 std::max(0.0, std::abs(statistics[c].mean() - truth[c]) - row.tolerance * truth[c]);
             // Rounding of a float sum, for the scenes in which a strategy leaves no variance.
             double rounding = 2e-7 * truth[c];
-            double p = stress::student_two_sided(excess / std::hypot(error, rounding), seeds - 1);
+            double p = numerics::student_two_sided(excess / std::hypot(error, rounding), seeds - 1);
             fmt::print("{:<58} {}: {:.7f} truth {:.7f} +- {:.1e} p {:.3f}\n", row.name, "RGB"[c],
                        statistics[c].mean(), truth[c], error, p);
             INFO("channel " << c << ": mean " << statistics[c].mean() << ", truth " << truth[c]

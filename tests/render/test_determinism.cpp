@@ -1,9 +1,9 @@
 // The image depends on the scene alone, to the bit: not on crop, threads or what kernels can do
 // besides. Lanes and how work is split: row `splitting` of the stress test.
 #include "host/image/exr.h"
+#include "host/numerics/every_kind_scene.h"
+#include "host/numerics/image_figures.h"
 #include "host/render/path_tracer.h"
-#include "host/stress/image_figures.h"
-#include "tests/support/every_kind_scene.h"
 #include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
@@ -15,6 +15,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 
@@ -25,7 +26,7 @@ Image image_of(const Scene& scene, const RenderOptions& options) {
 }
 
 std::uint64_t differing(const Image& full, const Image& part) {
-    return stress::differing_values(full, part).differing;
+    return numerics::differing_values(full, part).differing;
 }
 
 double mean_of(const Image& image, const char* name) {

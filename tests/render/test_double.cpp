@@ -1,6 +1,6 @@
 // The kernels in double precision are the oracle of the device's rounding: same scene, same random
 // numbers, so that images differ by rounding, and where a path takes another way for it.
-#include "tests/support/every_kind_scene.h"
+#include "host/numerics/every_kind_scene.h"
 #include "tests/support/host_render.h"
 #include "tests/support/render_scene.h"
 
@@ -11,6 +11,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Reconstruction filters: an edge seen through a filter has the filter's integral as its profile.
 #include "host/flatten/camera_record.h"
 #include "host/flatten/filter_table.h"
-#include "host/stress/statistics.h"
-#include "tests/support/every_kind_scene.h"
+#include "host/numerics/every_kind_scene.h"
+#include "host/numerics/statistics.h"
 #include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
@@ -14,7 +14,7 @@
 namespace {
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 constexpr int width = 18, height = 6, seeds = 8;
 constexpr double edge = 8.3; // pixels from the left of the film
@@ -92,10 +92,10 @@ double profile(const Setting& setting, int column) {
 TEST_CASE("An edge has the profile of the filter's integral, however the filter is applied",
           "[render]") {
     std::vector<Setting> all = settings();
-    double level = stress::sidak_level(family_level, all.size() * width);
+    double level = numerics::sidak_level(family_level, all.size() * width);
     for (const Setting& setting : all) {
         Scene scene = edge_scene(setting);
-        std::vector<stress::Mean> columns(width);
+        std::vector<numerics::Mean> columns(width);
         for (int seed = 0; seed < seeds; seed++) {
             scene.sampler.seed = seed;
             Image image = test::render_quietly(scene).image;
@@ -115,7 +115,7 @@ TEST_CASE("An edge has the profile of the filter's integral, however the filter 
                 "filter {} method {} border {} column {}: {:.6f} truth {:.6f} +- {:.1e}",
                 int(setting.filter.kind), int(setting.method), setting.sample_border, x,
                 columns[x].mean(), truth, error));
-            CHECK(stress::student_two_sided(std::max(0.0, off - ratio_bias) / error, seeds - 1) >
+            CHECK(numerics::student_two_sided(std::max(0.0, off - ratio_bias) / error, seeds - 1) >
                   level);
             CHECK(error < 4e-3);
         }
@@ -130,7 +130,7 @@ TEST_CASE("Splatting leaves less noise than sampling the filter", "[render]") {
     scene.sampler.samples_per_pixel = 16;
     auto variance = [&](FilterMethod method) {
         scene.film.filter_method = method;
-        std::vector<stress::Mean> pixels(scene.film.width * scene.film.height);
+        std::vector<numerics::Mean> pixels(scene.film.width * scene.film.height);
         for (int seed = 0; seed < 8; seed++) {
             scene.sampler.seed = seed;
             Image image = test::render_quietly(scene).image;
@@ -138,7 +138,7 @@ TEST_CASE("Splatting leaves less noise than sampling the filter", "[render]") {
                 pixels[i].add(find_channel(image, "G")->values[i]);
         }
         double sum = 0;
-        for (const stress::Mean& pixel : pixels)
+        for (const numerics::Mean& pixel : pixels)
             sum += pixel.error() * pixel.error();
         return sum / static_cast<double>(pixels.size());
     };

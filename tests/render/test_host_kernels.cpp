@@ -1,5 +1,5 @@
 // The kernels compiled as C++ give the image that the device gives, to the bit, in all channels.
-#include "tests/support/every_kind_scene.h"
+#include "host/numerics/every_kind_scene.h"
 #include "tests/support/host_render.h"
 #include "tests/support/render_scene.h"
 
@@ -9,6 +9,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

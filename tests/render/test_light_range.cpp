@@ -1,8 +1,8 @@
 // Lights as bright or as dim as single precision can say, and beyond: the same image in another
 // unit, whatever its sums and squares would overflow to.
+#include "host/numerics/every_kind_scene.h"
 #include "host/render/host_render.h"
 #include "host/twin/sample_trace.h"
-#include "tests/support/every_kind_scene.h"
 #include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
@@ -13,6 +13,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

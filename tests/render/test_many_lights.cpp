@@ -1,5 +1,5 @@
 // Many lights: choosing by what they send to a point changes the noise and not the image.
-#include "host/stress/statistics.h"
+#include "host/numerics/statistics.h"
 #include "tests/support/many_lights_scene.h"
 #include "tests/support/render_scene.h"
 
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 using namespace parhelion::test;
 
 namespace {

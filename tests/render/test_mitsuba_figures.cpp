@@ -26,7 +26,7 @@ TEST_CASE("Pictures are Mitsuba's within the noise of both, region by region", "
 
 TEST_CASE("Figures of Mitsuba's show a grey of 0.51 for 0.5, and a bounce too few", "[render]") {
     json stored = read_json("references.json"), list = read_json("cases.json").at("cases");
-    double level = stress::sidak_level(family_level, figures_in(stored.at("cases")));
+    double level = numerics::sidak_level(family_level, figures_in(stored.at("cases")));
     for (const char* name : {"shapes", "twosided_null"}) {
         INFO(name);
         json wrong = case_of_name(list, name);

@@ -1,13 +1,13 @@
 // Coarse spheres with smooth normals: faces turned away from the light are dark, and what shading
 // normals are asked for is what is rendered.
 #include "host/flatten/scene_features.h"
-#include "host/stress/smooth_spheres.h"
+#include "host/numerics/smooth_spheres.h"
 #include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 namespace {
 

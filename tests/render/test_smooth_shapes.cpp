@@ -1,7 +1,7 @@
 // Coarse meshes of smooth shapes against the shapes: which shading normals come nearest is what the
 // default goes by (the table in docs/accuracy.md).
+#include "host/numerics/every_kind_scene.h"
 #include "host/scene/mitsuba/transforms.h"
-#include "host/stress/every_kind_scene.h"
 #include "tests/support/render_scene.h"
 #include "tests/support/smooth_shapes.h"
 
@@ -11,6 +11,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 
@@ -35,7 +36,7 @@ Image image_of(const Shape3& shape, unsigned rows, const Light& light, ShadingNo
     Scene scene;
     scene.file = "made by the test";
     scene.materials.push_back({"", {}, DiffuseBsdf{Rgb(0.8)}});
-    scene.shapes = {stress::shape_of(smooth_mesh(shape.at, rows), 0, no_material)};
+    scene.shapes = {numerics::shape_of(smooth_mesh(shape.at, rows), 0, no_material)};
     scene.emitters = {light.emitter};
     scene.camera.to_world = mitsuba::look_at({0, 2, 4}, {0, 0, 0}, {0, 1, 0}, {scene.file, 0});
     scene.camera.fov_degrees = 30;

@@ -1,7 +1,7 @@
 // A sample told vertex by vertex is the sample that the device renders.
 #include "host/commands/trace_report.h"
 #include "host/film/film_image.h"
-#include "tests/support/every_kind_scene.h"
+#include "host/numerics/every_kind_scene.h"
 #include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
@@ -14,6 +14,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

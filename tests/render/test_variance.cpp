@@ -1,7 +1,7 @@
 // The variance that an image tells of itself: against sums of squares, and against the spread of
 // many images.
-#include "host/stress/statistics.h"
-#include "tests/support/every_kind_scene.h"
+#include "host/numerics/every_kind_scene.h"
+#include "host/numerics/statistics.h"
 #include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@
 #include <cmath>
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 using namespace parhelion::test;
 
 namespace {

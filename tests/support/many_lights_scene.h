@@ -2,10 +2,12 @@
 // places, orientations and strengths.
 #pragma once
 
-#include "tests/support/every_kind_scene.h"
-#include "tests/support/shared_maths.h"
+#include "host/numerics/every_kind_scene.h"
+#include "host/numerics/measure.h"
 
 namespace parhelion::test {
+
+using namespace parhelion::numerics;
 
 /// A floor and a wall under `count` lights; `mixed`: points, spots, spheres, disks and a faint sky
 /// among the quads.

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "host/commands/render.h"
+#include "host/numerics/statistics.h"
 #include "host/scene/load.h"
-#include "host/stress/statistics.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -83,7 +83,7 @@ inline std::vector<double> region_means(const Image& image, const std::vector<fl
 
 /// Welch's test of our mean against a stored [mean, standard error] of `renders` renders; `samples`
 /// of ours in all.
-inline double p_value(const stress::Mean& ours, int seeds, double samples, const json& theirs,
+inline double p_value(const numerics::Mean& ours, int seeds, double samples, const json& theirs,
                       int renders) {
     double mean = theirs.at(0), error = theirs.at(1);
     double va = ours.error() * ours.error(), vb = error * error;
@@ -91,8 +91,8 @@ inline double p_value(const stress::Mean& ours, int seeds, double samples, const
     double variance = std::max(va + vb, variance_floor / samples) +
                       std::pow(rounding * std::max(std::abs(mean), std::abs(ours.mean())), 2);
     double freedom = known > 0 ? std::min(variance * variance / known, 1e4) : 1e4;
-    return stress::student_two_sided((ours.mean() - mean) / std::sqrt(variance),
-                                     static_cast<int>(freedom));
+    return numerics::student_two_sided((ours.mean() - mean) / std::sqrt(variance),
+                                       static_cast<int>(freedom));
 }
 
 struct Verdict {
@@ -107,7 +107,7 @@ inline Verdict compare_case(const json& c, const json& stored, const json& about
     int samples = std::max(effort.samples, c.value("least_samples", 1));
     Scene scene = load_case(c, samples);
     int grid = about.at("grid"), renders = about.at("renders");
-    std::map<std::string, std::vector<stress::Mean>> ours;
+    std::map<std::string, std::vector<numerics::Mean>> ours;
     for (int seed = 0; seed < effort.seeds; seed++) {
         scene.sampler.seed = 1 + seed;
         RenderResult result = effort.render(scene);
@@ -157,7 +157,7 @@ inline json case_of_name(const json& list, const std::string& name) {
 /// Whether every case is Mitsuba's at the level `family` of all figures together.
 inline void check_all_cases(const Effort& effort, double family) {
     json stored = read_json("references.json"), list = read_json("cases.json").at("cases");
-    double level = stress::sidak_level(family, figures_in(stored.at("cases")));
+    double level = numerics::sidak_level(family, figures_in(stored.at("cases")));
     std::size_t compared = 0;
     for (const json& c : list) {
         if (c.value("mitsuba_is_wrong", false)) continue;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/flatten/device_scene.h"
-#include "host/stress/placed_scene.h"
+#include "host/numerics/placed_scene.h"
 #include "host/waves/render_params.h"
 
 #include <cstring>
@@ -11,7 +11,7 @@
 
 namespace parhelion::test {
 
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 template<class A, class B>
 bool same_bytes(const A& a, const B& b) {

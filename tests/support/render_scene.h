@@ -2,9 +2,9 @@
 #pragma once
 
 #include "host/commands/render.h"
+#include "host/numerics/image_figures.h"
 #include "host/render/path_tracer.h"
 #include "host/scene/load.h"
-#include "host/stress/image_figures.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 
 namespace parhelion::test {
 
-using stress::mean_rgb;
+using numerics::mean_rgb;
 
 /// The device of this test process: PARHELION_DEVICE, or the default one.
 inline RenderDevice& test_device() {

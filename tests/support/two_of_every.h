@@ -6,7 +6,7 @@
 #pragma once
 
 #include "host/flatten/scene_features.h"
-#include "tests/support/every_kind_scene.h"
+#include "host/numerics/every_kind_scene.h"
 
 #include <array>
 #include <cmath>
@@ -14,6 +14,8 @@
 #include <vector>
 
 namespace parhelion::test {
+
+using namespace parhelion::numerics;
 
 // ------------------------------------------------------------------------------------- materials
 /// Two of each, `which` of 0, 1.

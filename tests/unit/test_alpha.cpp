@@ -2,8 +2,8 @@
 // ones, lights and skies one behind the other. The figures are those of Mitsuba 3.9.1 (scalar_rgb),
 // measured but for the rows tt, nt, tn and n0, which follow the rule of the others; R and alpha of
 // a path are its own, so that noise is that of Fresnel's share alone.
+#include "host/numerics/every_kind_scene.h"
 #include "host/twin/sample_trace.h"
-#include "tests/support/every_kind_scene.h"
 #include "tests/support/host_render.h"
 
 #include <catch2/catch.hpp>
@@ -12,6 +12,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

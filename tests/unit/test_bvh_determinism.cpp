@@ -1,5 +1,5 @@
 // The tree is the same bits whatever the number of threads, and each time it is built.
-#include "host/stress/shapes.h"
+#include "host/numerics/shapes.h"
 
 #include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>

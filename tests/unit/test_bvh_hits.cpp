@@ -1,5 +1,5 @@
 // Walking the BVH finds what testing every primitive finds.
-#include "host/stress/shapes.h"
+#include "host/numerics/shapes.h"
 
 #include <catch2/catch.hpp>
 

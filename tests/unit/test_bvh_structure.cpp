@@ -1,7 +1,7 @@
 // What must hold for every tree: all primitives once, boxes that contain, leaves of one kind, a
 // stack that suffices.
 #include "host/bvh/bounds.h"
-#include "host/stress/shapes.h"
+#include "host/numerics/shapes.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // Rays from inside a closed mesh, aimed at its edges and corners, never get out.
-#include "host/stress/shapes.h"
+#include "host/numerics/shapes.h"
 
 #include <catch2/catch.hpp>
 

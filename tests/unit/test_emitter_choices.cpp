@@ -1,13 +1,13 @@
 // A light is chosen by solid angle or by area, by rules that a sample and a ray that meets the
 // light must read alike: where one rule takes over from the other, both have to.
-#include "tests/support/shared_maths.h"
+#include "host/numerics/measure.h"
 
 #include <catch2/catch.hpp>
 
 #include <vector>
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

@@ -8,13 +8,12 @@
 #include "host/flatten/device_scene.h"
 #include "host/flatten/material_records.h"
 #include "host/flatten/scene_features.h"
-#include "tests/support/every_kind_scene.h"
+#include "host/numerics/every_kind_scene.h"
 
-#include "host/stress/white_furnace.h" // last: its macros have short names
+#include "host/numerics/white_furnace.h" // last: its macros have short names
 
 using namespace parhelion;
-using namespace parhelion::stress;
-using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Every AOV of the list, in both precisions, where two of every shape stand: rays are those of the
 // camera, what they meet is worked out here, in double, from Mitsuba's documentation of shapes and
 // of `aov`. An AOV without a truth here does not compile.
+#include "host/numerics/every_kind_scene.h"
 #include "host/twin/sample_trace.h"
-#include "tests/support/every_kind_scene.h"
 #include "tests/support/host_render.h"
 
 #include <catch2/catch.hpp>
@@ -13,6 +13,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

@@ -1,7 +1,7 @@
 // The kernels as C++, in small: what the sanitizers see of them. That their images are the device's
 // is for tests/render.
+#include "host/numerics/every_kind_scene.h"
 #include "host/twin/sample_trace.h"
-#include "tests/support/every_kind_scene.h"
 #include "tests/support/host_render.h"
 
 #include <catch2/catch.hpp>
@@ -11,6 +11,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

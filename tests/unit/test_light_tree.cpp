@@ -6,10 +6,10 @@
 #include <catch2/catch.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "host/stress/light_tables.h"
+#include "host/numerics/light_tables.h"
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 using namespace parhelion::test;
 
 namespace {

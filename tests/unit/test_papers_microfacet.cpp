@@ -5,16 +5,16 @@
 //   BRDFs".
 //
 // `i` is the direction of the light, `o` that of the viewer, as in Walter et al.
-#include "tests/support/shared_maths.h"
+#include "host/numerics/measure.h"
 
-#include "host/stress/materials.h"
+#include "host/numerics/materials.h"
 
 #include <catch2/catch.hpp>
 
 #include <complex>
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

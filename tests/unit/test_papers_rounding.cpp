@@ -1,12 +1,12 @@
 // Bounds of rounding errors and random numbers, as their papers print them.
-#include "tests/support/shared_maths.h"
+#include "host/numerics/measure.h"
 
 #include <catch2/catch.hpp>
 
 #include <array>
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

@@ -1,16 +1,16 @@
 // Smooth materials, weights and roulette against the formulas as their papers print them, in
 // double. A delta lobe tells its probability by where the number that chooses the lobe changes
 // sides.
-#include "tests/support/shared_maths.h"
+#include "host/numerics/measure.h"
 
-#include "host/stress/materials.h"
+#include "host/numerics/materials.h"
 
 #include <catch2/catch.hpp>
 
 #include <complex>
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

@@ -2,7 +2,7 @@
 // they are a parallelogram facing one way.
 #include "host/flatten/device_scene.h"
 #include "host/flatten/parallelograms.h"
-#include "tests/support/every_kind_scene.h"
+#include "host/numerics/every_kind_scene.h"
 
 #include <catch2/catch.hpp>
 
@@ -43,7 +43,7 @@ TEST_CASE("Parallelograms: refused where there is none") {
 
 TEST_CASE("Parallelograms: a quad is one light that both its triangles name, of its whole area; a "
           "triangle beside it is another") {
-    Scene scene = test::every_kind_scene();
+    Scene scene = numerics::every_kind_scene();
     DeviceScene flat = make_device_scene(scene);
     auto is_quad = [](const LightRecord& l) { return l.kind == emitter_area_parallelogram; };
     auto quad = std::find_if(flat.lights.begin(), flat.lights.end(), is_quad);
@@ -59,7 +59,7 @@ TEST_CASE("Parallelograms: a quad is one light that both its triangles name, of 
 }
 
 TEST_CASE("Parallelograms: an emitting mesh keeps what does not pair up") {
-    Mesh mesh = test::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    Mesh mesh = numerics::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     mesh.positions.push_back({0.5, 2, 0});
     mesh.triangles.push_back({3, 2, 4});
     CHECK((starts_parallelogram(mesh, {}) == std::vector{true, false, false}));

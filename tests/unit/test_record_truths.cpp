@@ -3,14 +3,14 @@
 #include "host/flatten/light_bounds.h"
 #include "host/flatten/light_rows.h"
 #include "host/flatten/material_records.h"
-#include "host/stress/every_kind_scene.h"
-#include "tests/support/shared_maths.h"
+#include "host/numerics/every_kind_scene.h"
+#include "host/numerics/measure.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

@@ -1,9 +1,9 @@
 // What the user is told of shapes that single precision cannot tell from their place, and of
 // emitters that give no light.
 #include "host/flatten/device_scene.h"
-#include "host/stress/light_tables.h"
-#include "tests/support/every_kind_scene.h"
-#include "tests/support/shared_maths.h"
+#include "host/numerics/every_kind_scene.h"
+#include "host/numerics/light_tables.h"
+#include "host/numerics/measure.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,7 +11,7 @@
 #include <cmath>
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 
@@ -181,7 +181,7 @@ TEST_CASE("Lights: points of a tiny triangle know how far they may be from the o
             normal = glm::normalize(normal);
             glm::dvec3 near = a + 0.01 * glm::length(a) * glm::dvec3(away.x, away.y, away.z);
             auto s = f32::emitter_area_tiny_triangle_sample(
-                stress::lanes_of(row), {float(near.x), float(near.y), float(near.z)},
+                numerics::lanes_of(row), {float(near.x), float(near.y), float(near.z)},
                 random.square<F32>());
             double off = std::fabs(glm::dot(normal, glm::dvec3(s.q.x, s.q.y, s.q.z) - a)),
                    told = glm::dot(glm::abs(normal),

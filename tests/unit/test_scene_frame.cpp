@@ -1,6 +1,6 @@
 // The device's frame: scenes scaled by powers of two or moved are the same to the device, from the
 // file on, and nothing leaves the range of single precision.
-#include "tests/support/every_kind_scene.h"
+#include "host/numerics/every_kind_scene.h"
 #include "tests/support/placed_scene.h"
 #include "tests/unit/test_scene_tools.h"
 
@@ -8,6 +8,7 @@
 
 using namespace parhelion;
 using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

@@ -2,10 +2,10 @@
 // are left alone.
 #include <catch2/catch.hpp>
 
-#include "tests/support/shared_maths.h"
+#include "host/numerics/measure.h"
 
 using namespace parhelion;
-using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

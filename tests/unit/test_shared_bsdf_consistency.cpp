@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "host/stress/energy.h"
-#include "host/stress/materials.h"
-#include "host/stress/statistics.h"
+#include "host/numerics/energy.h"
+#include "host/numerics/materials.h"
+#include "host/numerics/statistics.h"
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 namespace {
 

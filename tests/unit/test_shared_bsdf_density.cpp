@@ -1,10 +1,10 @@
 // Every material of the list: samples follow the density that eval and sample claim (chi-square).
 #include <catch2/catch.hpp>
 
-#include "host/stress/density_test.h"
+#include "host/numerics/density_test.h"
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 namespace {
 

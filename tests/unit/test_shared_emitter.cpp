@@ -2,11 +2,11 @@
 // against closed forms.
 #include <catch2/catch.hpp>
 
-#include "host/stress/materials.h"
-#include "host/stress/statistics.h"
+#include "host/numerics/materials.h"
+#include "host/numerics/statistics.h"
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 namespace {
 

@@ -2,15 +2,14 @@
 // scrambles, and independent between decisions.
 #include <catch2/catch.hpp>
 
-#include "host/stress/statistics.h"
-#include "tests/support/shared_maths.h"
+#include "host/numerics/measure.h"
+#include "host/numerics/statistics.h"
 
 #include <array>
 #include <bit>
 
 using namespace parhelion;
-using namespace parhelion::stress;
-using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

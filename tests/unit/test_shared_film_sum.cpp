@@ -1,11 +1,11 @@
 // The film's sums and spreads: against long double, over many samples.
-#include "host/stress/film_drift.h"
+#include "host/numerics/film_drift.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 TEST_CASE("Film: mean and variance of 1e7 samples do not drift") {
     for (const FilmFeed& feed : film_feeds) {

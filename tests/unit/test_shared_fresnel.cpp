@@ -2,10 +2,10 @@
 // textbook forms fail.
 #include <catch2/catch.hpp>
 
-#include "host/stress/fresnel_truth.h"
+#include "host/numerics/fresnel_truth.h"
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 namespace {
 

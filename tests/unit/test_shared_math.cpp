@@ -1,10 +1,10 @@
 // The elementary functions, frames and microfacet densities in float against double or long double.
 #include <catch2/catch.hpp>
 
-#include "host/stress/materials.h"
+#include "host/numerics/materials.h"
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 TEST_CASE("Maths: sine and cosine of turns within 1.2e-7", "[maths]") {
     Worst worst;

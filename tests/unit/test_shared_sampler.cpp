@@ -2,12 +2,11 @@
 // at the ends.
 #include <catch2/catch.hpp>
 
-#include "host/stress/statistics.h"
-#include "tests/support/shared_maths.h"
+#include "host/numerics/measure.h"
+#include "host/numerics/statistics.h"
 
 using namespace parhelion;
-using namespace parhelion::stress;
-using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

@@ -1,10 +1,10 @@
 // The six facts every renderer starts from, each by its name; on the host, in both precisions.
 #include <catch2/catch.hpp>
 
-#include "host/stress/materials.h"
+#include "host/numerics/materials.h"
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 namespace {
 

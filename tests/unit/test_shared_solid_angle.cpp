@@ -1,15 +1,14 @@
 // Triangles seen from a point: their solid angle to the last digits, and points uniform in it.
 #include <catch2/catch.hpp>
 
-#include "host/stress/seen_triangles.h"
-#include "host/stress/statistics.h"
-#include "tests/support/shared_maths.h"
+#include "host/numerics/measure.h"
+#include "host/numerics/seen_triangles.h"
+#include "host/numerics/statistics.h"
 
 #include <algorithm>
 
 using namespace parhelion;
-using namespace parhelion::stress;
-using namespace parhelion::test;
+using namespace parhelion::numerics;
 
 namespace {
 

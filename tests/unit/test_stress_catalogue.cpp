@@ -1,5 +1,5 @@
 // The page on accuracy tells of everything that is asked.
-#include "host/stress/catalogue.h"
+#include "host/catalogue/catalogue.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,12 +1,12 @@
 // The tests' own statistics: known values, and proof that a wrong density is found out.
 #include <catch2/catch.hpp>
 
-#include "host/stress/direction_bins.h"
-#include "host/stress/quadrature.h"
-#include "host/stress/statistics.h"
+#include "host/numerics/direction_bins.h"
+#include "host/numerics/quadrature.h"
+#include "host/numerics/statistics.h"
 
 using namespace parhelion;
-using namespace parhelion::stress;
+using namespace parhelion::numerics;
 
 TEST_CASE("Statistics: chi-square tail, normal tail and Sidak bound have their known values",
           "[support]") {

@@ -1,0 +1,157 @@
+// Whole images of scenes whose answer is known, over many seeds: the interval of what is left of a
+// bias, and whether errors are as large as they say.
+#include "host/catalogue/rows.h"
+
+#include "host/catalogue/row_images.h"
+#include "host/error.h"
+#include "host/numerics/closed_form_truth.h"
+#include "host/numerics/statistics.h"
+#include "host/scene/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace parhelion::stress {
+namespace {
+
+constexpr int group_size = 10; // seeds of one t-test
+
+/// scenes/closed_form beside an installed program, or of the source tree that it was built in.
+std::filesystem::path scene_folder() {
+    namespace fs = std::filesystem;
+    fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
+    for (const char* way : {"../share/parhelion/scenes/closed_form", "../../scenes/closed_form",
+                            "../../../scenes/closed_form"})
+        if (fs::is_directory(program / way)) return program / way;
+    throw InputError("the scenes of known answers (share/parhelion/scenes/closed_form) are not "
+                     "beside the program");
+}
+
+Scene load_row(const closed_form::Row& row) {
+    Scene scene =
+        load_scene((scene_folder() / row.folder / "scene.xml").string(), {row.parameters, false});
+    Film& film = scene.film;
+    film.crop_x = film.crop_y = 0, film.crop_width = film.width, film.crop_height = film.height;
+    scene.sampler.samples_per_pixel = row.spp;
+    scene.integrator.emitter_samples &= row.next_event;
+    return scene;
+}
+
+/// Mean of all values of R, G and B.
+double mean_of(const Image& image) {
+    double sum = 0;
+    for (const char* channel : {"R", "G", "B"})
+        for (float v : find_channel(image, channel)->values)
+            sum += v;
+    return sum / (3. * static_cast<double>(image.pixel_count()));
+}
+
+double mean_truth(const closed_form::Row& row, const Image& image) {
+    double sum = 0;
+    for (int y = 0; y < image.height; y++)
+        for (int x = 0; x < image.width; x++)
+            for (int c = 0; c < 3; c++)
+                sum += row.truth(x, y)[c];
+    return sum / (3. * static_cast<double>(image.pixel_count()));
+}
+
+struct SeedStatistics {
+    Mean all;
+    std::vector<double> p_values; ///< one a group of seeds
+    double truth = 0;
+    std::uint64_t samples = 0; ///< of one image
+    std::uint64_t bad_samples = 0;
+};
+
+/// Of the seeds from `first_seed` on.
+SeedStatistics render_seeds(StressRun& run, const closed_form::Row& row, std::uint64_t first_seed,
+                            int seeds) {
+    Scene scene = load_row(row);
+    SeedStatistics s;
+    Mean group;
+    for (int n = 0; n < seeds; n++) {
+        scene.sampler.seed = static_cast<std::uint32_t>(first_seed + n);
+        RenderResult result = render_quietly(run, scene);
+        s.truth = mean_truth(row, result.image);
+        s.samples = result.image.pixel_count() * static_cast<std::uint64_t>(row.spp);
+        s.bad_samples += result.report.non_finite_samples;
+        double mean = mean_of(result.image);
+        s.all.add(mean);
+        group.add(mean);
+        if ((n + 1) % group_size == 0) {
+            double t = (group.mean() - s.truth) / group.error();
+            s.p_values.push_back(student_two_sided(t, group_size - 1));
+            group = Mean();
+        }
+    }
+    return s;
+}
+
+/// Whether the errors of seeds, of relative standard deviation `spread`, come from many samples:
+/// from more than rounding, and from more than one sample in a million that loses its light. There
+/// are such: rays start a little off a curved wall, so that its nearest light points lie below
+/// their horizon. A t-test of ten seeds knows no jumps as rare as that.
+bool has_variance(const closed_form::Row& row, const SeedStatistics& s, double spread) {
+    double of_a_sample = spread * std::sqrt(static_cast<double>(s.samples));
+    return spread > 20 * (2e-7 + row.tolerance) && of_a_sample > 1e-3;
+}
+
+/// Rounding of a float sum, where a strategy leaves no variance; and what the scene's finite extent
+/// takes from the truth.
+double allowance(const closed_form::Row& row, double truth) {
+    return (2e-7 + row.tolerance) * truth;
+}
+
+} // namespace
+
+Checks row_closed_forms(StressRun& run) {
+    std::vector<closed_form::Row> rows;
+    for (const closed_form::Row& row : closed_form::rows())
+        if (row.check == closed_form::Check::mean_z_test) rows.push_back(row);
+    if (run.effort != Effort::full) // every third: twelve and more
+        std::erase_if(rows, [&, n = 0](const closed_form::Row&) mutable { return n++ % 3 != 0; });
+    int seeds = static_cast<int>(run.count(20, 40, 1000));
+    double level = sidak_level(0.01, rows.size());
+    std::vector<double> all_p;
+    Checks checks;
+    for (std::size_t i = 0; i < rows.size(); i++) {
+        // Seeds of its own: scenes of the same shape would else err alike, all together.
+        SeedStatistics s = render_seeds(run, rows[i], run.seed * 100'000 + i * seeds, seeds);
+        double bias = s.all.mean() / s.truth - 1, error = s.all.error() / s.truth;
+        double excess =
+            std::max(0., std::fabs(s.all.mean() - s.truth) - allowance(rows[i], s.truth));
+        checks.push_back(
+            {.name = rows[i].name + ": mean against the truth",
+             .value =
+                 student_two_sided(excess / std::hypot(s.all.error(), 1e-9 * s.truth), seeds - 1),
+             .target = level,
+             .at_least = true,
+             .unit = "p",
+             .samples = static_cast<std::uint64_t>(seeds),
+             .note = fmt::format("bias {:+.2e} +- {:.2e} (95 %), relative; {} samples not finite",
+                                 bias, 1.96 * error, s.bad_samples)});
+        if (has_variance(rows[i], s, error * std::sqrt(seeds))) {
+            double p = kolmogorov_smirnov_p(s.p_values);
+            checks.push_back({.name = rows[i].name + ": p-values of groups of seeds are uniform",
+                              .value = p,
+                              .target = level,
+                              .at_least = true,
+                              .unit = "p",
+                              .samples = s.p_values.size()});
+            all_p.insert(all_p.end(), s.p_values.begin(), s.p_values.end());
+        }
+        run.done(static_cast<double>(i + 1) / static_cast<double>(rows.size()));
+    }
+    checks.push_back({.name = "closed forms together: p-values are uniform",
+                      .value = kolmogorov_smirnov_p(all_p),
+                      .target = 0.01,
+                      .at_least = true,
+                      .unit = "p",
+                      .samples = all_p.size()});
+    return checks;
+}
+
+} // namespace parhelion::stress

@@ -1,0 +1,80 @@
+// The image depends on the scene alone, to the bit: not on lanes, intrinsics, features, how work is
+// split, or crop.
+#include "host/catalogue/rows.h"
+
+#include "host/catalogue/row_images.h"
+#include "host/numerics/every_kind_scene.h"
+
+#include <fmt/format.h>
+
+namespace parhelion::stress {
+namespace {
+
+struct Way {
+    std::string text;
+    RenderOptions options;
+};
+
+std::vector<Way> splits() {
+    std::vector<Way> list;
+    auto add = [&](const WorkSplit& split, int lanes = 0) {
+        list.push_back({fmt::format("pool {}, segments of {}, groups of {}, {} streams, {} lanes",
+                                    split.pool_paths, split.segment_paths, split.work_group_size,
+                                    split.streams, lanes),
+                        {}});
+        list.back().options.split = split, list.back().options.lanes = lanes;
+    };
+    for (int pool : {16, 1000, 65536})
+        for (int segment : {16, 100, 4096})
+            for (int group : {1, 2, 7})
+                if (pool > 16 || group * segment <= 100) // the same as a smaller one, and slow
+                    add({pool, segment, group});
+    for (int streams : {1, 2, 3})
+        add({8192, 1024, 1, streams});
+    add({1000, 37, 2}, 1);
+    return list;
+}
+
+std::vector<Way> kernels() {
+    std::vector<Way> list;
+    for (int lanes : {16, 8, 1})
+        for (bool portable : {false, true}) {
+            if (lanes == 1 && portable) continue; // one lane has no intrinsics
+            list.push_back({fmt::format("{} lanes{}", lanes, portable ? ", portable" : ""), {}});
+            list.back().options.lanes = lanes, list.back().options.portable = portable;
+        }
+    list.push_back({"kernels of all features", {}});
+    list.back().options.all_features = true;
+    return list;
+}
+
+} // namespace
+
+Checks row_splitting(StressRun& run) {
+    Scene scene = every_kind_scene();
+    Check bad = bad_samples_check("split images");
+    Image full = image_of(run, scene, bad);
+    Checks checks;
+    for (const auto& [name, ways] :
+         {std::pair{"split in other ways", splits()}, {"other kernels", kernels()}}) {
+        Check check = same_bits_check(name);
+        for (const Way& way : ways)
+            add_images(check, full, image_of(run, scene, bad, way.options), way.text);
+        checks.push_back(check);
+        run.done(0.4 * static_cast<double>(checks.size()));
+    }
+    Check crops = same_bits_check("cropped");
+    const int windows[][4] = {{0, 0, 40, 30}, {3, 5, 17, 11}, {39, 29, 1, 1}, {8, 0, 4, 30}};
+    for (const auto& [x, y, width, height] : windows) {
+        Scene part = scene;
+        part.film.crop_x = x, part.film.crop_y = y;
+        part.film.crop_width = width, part.film.crop_height = height;
+        add_images(crops, full, image_of(run, part, bad),
+                   fmt::format("crop {},{},{},{}", x, y, width, height));
+    }
+    checks.push_back(crops);
+    checks.push_back(bad);
+    return checks;
+}
+
+} // namespace parhelion::stress

@@ -1,0 +1,119 @@
+// Parameter sets for every kind of material in the list, so that a new one is tested without
+// another word.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "host/numerics/measure.h"
+
+namespace parhelion::numerics {
+
+struct MaterialCase {
+    std::string name;
+    int kind;
+    bool transparent; // by the list: answers from both sides, and keeps a dielectric's numbers
+    bool lossless;    // nothing is absorbed but by the geometry of single scattering
+    std::array<double, 3> reflectance, transmittance;
+    std::array<double, 3> eta, k; // conductors
+    double index;                 // dielectrics
+    double alpha_u, alpha_v;
+    int distribution; // 0 GGX, 1 Beckmann
+};
+
+template<class P>
+typename P::Material make_material(const MaterialCase& c) {
+    using Real = typename P::Real;
+    typename P::Material m{};
+    m.kind = c.kind;
+    m.r = Real(c.reflectance[0]), m.g = Real(c.reflectance[1]), m.b = Real(c.reflectance[2]);
+    m.tr = Real(c.transmittance[0]), m.tg = Real(c.transmittance[1]),
+    m.tb = Real(c.transmittance[2]);
+    m.er = Real(c.eta[0]), m.eg = Real(c.eta[1]), m.eb = Real(c.eta[2]);
+    m.kr = Real(c.k[0]), m.kg = Real(c.k[1]), m.kb = Real(c.k[2]);
+    if (c.transparent) {
+        auto outside = interface_of<P>(c.index), inside = interface_of<P>(1 / c.index);
+        m.er = outside.eta, m.eg = inside.eta;
+        m.eb = outside.m_high, m.kr = outside.m_low;
+        m.kg = inside.m_high, m.kb = inside.m_low;
+    }
+    m.alpha_u = Real(c.alpha_u), m.alpha_v = Real(c.alpha_v);
+    m.distribution = c.distribution;
+    return m;
+}
+
+/// Lossless, metals and glasses, both distributions, isotropic and anisotropic, alpha from 1e-3
+/// to 1.
+inline std::vector<MaterialCase> material_cases() {
+    using Rgb = std::array<double, 3>;
+    const Rgb one = {1, 1, 1}, none = {0, 0, 0}, tint = {0.9, 0.5, 0.2};
+    const Rgb gold_eta = {0.15, 0.43, 1.6}, gold_k = {3.7, 2.4, 1.9}, glass_eta = {1.5, 1.3, 2.2};
+    const MaterialCase parameters[] = {
+        {"lossless, GGX 0.3", 0, false, true, one, one, none, one, 1.5, 0.3, 0.3, 0},
+        {"tinted, GGX 0.05 x 0.2",
+         0,
+         false,
+         false,
+         tint,
+         {0.3, 0.8, 1},
+         gold_eta,
+         gold_k,
+         1.33,
+         0.05,
+         0.2,
+         0},
+        {"Beckmann 0.3", 0, false, false, one, one, gold_eta, gold_k, 1 / 1.5, 0.3, 0.3, 1},
+        {"lossless, GGX 1", 0, false, true, one, one, none, one, 2.4, 1, 1, 0},
+        {"dull, GGX 0.01", 0, false, false, tint, tint, glass_eta, none, 1.5, 0.01, 0.01, 0},
+        {"Beckmann 0.1 x 0.5", 0, false, false, tint, one, gold_eta, gold_k, 1.7, 0.1, 0.5, 1},
+        {"lossless, GGX 0.001", 0, false, true, one, one, none, one, 1.5, 0.001, 0.001, 0},
+    };
+    std::vector<MaterialCase> cases;
+    for (const MaterialCase& p : parameters) {
+#define ADD_CASE(label, sides)                                                                     \
+    cases.push_back(p);                                                                            \
+    cases.back().name = #label ", " + p.name;                                                      \
+    cases.back().kind = material_##label;                                                          \
+    cases.back().transparent = !SIDES_##sides;
+        MATERIALS(ADD_CASE)
+#undef ADD_CASE
+    }
+    return cases;
+}
+
+/// Directions toward the viewer: from the normal to 0.1 degrees from grazing; from below too where
+/// the material answers.
+inline std::vector<f32::vec3> viewer_directions(const MaterialCase& c) {
+    std::vector<f32::vec3> directions;
+    const double degrees[] = {0, 0.5, 30, 60, 85, 89.9};
+    for (double side : {1.0, -1.0}) {
+        if (side < 0 && !c.transparent) break;
+        double phi = 0.3;
+        for (double degree : degrees) {
+            double theta = degree * M_PI / 180, sine = std::sin(theta);
+            directions.push_back(
+                vec<F32>(sine * std::cos(phi), sine * std::sin(phi), side * std::cos(theta)));
+            phi += 1.1;
+        }
+    }
+    return directions;
+}
+
+/// Does every scattered direction of this material have infinite density?
+template<class P>
+bool is_delta(const typename P::Material& m, typename P::Vec3 wo) {
+    Random random(99);
+    for (int n = 0; n < 64; n++) {
+        auto s = bsdf_sample(m, wo, random.square<P>(), typename P::Real(random.unit()));
+        if (std::isfinite(s.pdf) && s.pdf > 0) return false;
+    }
+    return true;
+}
+
+template<class V>
+double component(V v, int channel) {
+    return channel == 0 ? v.x : channel == 1 ? v.y : v.z;
+}
+
+} // namespace parhelion::numerics
