@@ -29,7 +29,8 @@ std::vector<Row> catalogue() {
     for (auto tests : {fresnel_functions, microfacet_functions, vector_functions,
                        intersection_functions, sampling_functions, normals_functions})
         append(rows, tests());
-#define LIST_ROW(name, chapter, title) rows.push_back({#name, chapter, title, row_##name});
+#define LIST_ROW(name, ways, chapter, title)                                                       \
+    rows.push_back({#name, chapter, title, Ways::ways, row_##name});
     STRESS_ROWS(LIST_ROW)
     return rows;
 }

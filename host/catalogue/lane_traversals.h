@@ -67,11 +67,11 @@ class LaneTraversals {
     }
 
 public:
-    /// Answers come from as many lanes as the device has; of the rays of every call the first
+    /// Answers come from the run's own kernels; of the rays of every call the first
     /// of so many parts goes through the others.
     explicit LaneTraversals(StressRun& run) : own_(run.traversal()), share_(run.count(1, 1, 16)) {
         for (int lanes : {1, 8, 16})
-            if (lanes != run.device.device.lanes())
+            if (lanes != run.kernels.lanes)
                 others_.push_back({lanes, std::make_unique<Traversal>(
                                               run.device, ProgramOptions{.lanes = lanes})});
     }

@@ -71,14 +71,27 @@ double power_over_one(const Configuration& c, std::uint64_t count, std::uint64_t
     return worst;
 }
 
+/// Few enough for many samples each.
+std::vector<Configuration> anisotropic_at_60_degrees() {
+    std::vector<Configuration> few;
+    for (int kind = 0; kind < material_kind_count; kind++)
+        for (const Configuration& c : configurations(kind, false)) {
+            double cosine = std::fabs(c.wo.z);
+            if (c.material.alpha_u != c.material.alpha_v && cosine > 0.4 && cosine < 0.6)
+                few.push_back(c);
+        }
+    return few;
+}
+
 } // namespace
 
 Checks row_density(StressRun& run) {
     Checks checks;
-    std::uint64_t count = run.count(20'000, 300'000, 100'000'000);
+    std::uint64_t count = run.count(100'000, 300'000, 100'000'000);
     std::size_t views = 0;
 #define COUNT_VIEWS(label, sides) views += configurations(material_##label, false).size();
     MATERIALS(COUNT_VIEWS)
+    views += anisotropic_at_60_degrees().size();
     std::atomic<std::size_t> finished = 0;
     auto view_done = [&] {
         run.done(static_cast<double>(++finished) / static_cast<double>(views));
@@ -88,6 +101,10 @@ Checks row_density(StressRun& run) {
         for (const Check& check : density_checks(run, #label, list, count, view_done))             \
             checks.push_back(check);
     MATERIALS(TEST_KIND)
+    std::vector<Configuration> few = anisotropic_at_60_degrees();
+    for (const Check& check : density_checks(run, "anisotropic, at 60 degrees", few,
+                                             std::max<std::uint64_t>(count, 1'000'000), view_done))
+        checks.push_back(check);
     return checks;
 }
 

@@ -11,9 +11,12 @@
 
 namespace parhelion::stress {
 
+/// By the run's kernels, where the options leave that open.
 inline RenderResult render_quietly(const StressRun& run, const Scene& scene,
-                                   const RenderOptions& options = {}) {
+                                   RenderOptions options = {}) {
     Progress quiet(Progress::Mode::quiet);
+    if (options.lanes == 0)
+        options.lanes = run.kernels.lanes, options.portable |= run.kernels.portable;
     return render(scene, run.device, options, quiet);
 }
 

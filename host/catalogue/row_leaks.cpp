@@ -52,7 +52,7 @@ void count_leaks(Traversal& traversal, const rays::Primitives& mesh, const Place
 Checks row_leaks(StressRun& run) {
     Checks checks;
     std::vector<NamedPlace> list = places();
-    std::uint64_t count = run.count(100'000, 10'000'000, 1'000'000'000) / (2 * list.size());
+    std::uint64_t count = run.count(300'000, 10'000'000, 1'000'000'000) / (2 * list.size());
     for (std::size_t i = 0; i < list.size(); i++) {
         Counts counts;
         for (const rays::Primitives& mesh : meshes(list[i].place))

@@ -145,7 +145,7 @@ Finding try_batch(Worker& w, const OneArgument& f, int which, std::uint32_t firs
 bool tried(Effort effort, const OneArgument& f, std::uint32_t first, std::size_t number) {
     if (effort == Effort::full) return true;
     bool small = f.step == 1 && std::fabs(argument(first)) < 0x1p-32f;
-    return number % (effort == Effort::test ? 256 : small ? 32 : 1) == 0;
+    return number % (effort == Effort::brief ? 256 : small ? 32 : 1) == 0;
 }
 
 /// Batches of both ranges.

@@ -4,6 +4,7 @@
 
 #include "host/catalogue/row_images.h"
 #include "host/numerics/every_kind_scene.h"
+#include "host/numerics/kernel_ways.h"
 
 #include <fmt/format.h>
 
@@ -37,15 +38,32 @@ std::vector<Way> splits() {
 
 std::vector<Way> kernels() {
     std::vector<Way> list;
-    for (int lanes : {16, 8, 1})
-        for (bool portable : {false, true}) {
-            if (lanes == 1 && portable) continue; // one lane has no intrinsics
-            list.push_back({fmt::format("{} lanes{}", lanes, portable ? ", portable" : ""), {}});
-            list.back().options.lanes = lanes, list.back().options.portable = portable;
-        }
+    for (const KernelWay& way : kernel_ways) {
+        list.push_back({way.name(), {}});
+        list.back().options.lanes = way.lanes, list.back().options.portable = way.portable;
+    }
     list.push_back({"kernels of all features", {}});
     list.back().options.all_features = true;
     return list;
+}
+
+/// With samples beyond the film's border and without, splatted and by filter sampling.
+Check cropped(StressRun& run, Scene scene, Check& bad) {
+    Check check = same_bits_check("cropped");
+    const int windows[][4] = {{0, 0, 40, 30}, {3, 5, 17, 11}, {39, 29, 1, 1}, {8, 0, 4, 30}};
+    for (bool border : {false, true})
+        for (FilterMethod method : {FilterMethod::splatting, FilterMethod::sampling}) {
+            scene.film.sample_border = border, scene.film.filter_method = method;
+            Image full = image_of(run, scene, bad);
+            for (const auto& [x, y, width, height] : windows) {
+                Scene part = scene;
+                part.film.crop_x = x, part.film.crop_y = y;
+                part.film.crop_width = width, part.film.crop_height = height;
+                add_images(check, full, image_of(run, part, bad),
+                           fmt::format("crop {},{},{},{}", x, y, width, height));
+            }
+        }
+    return check;
 }
 
 } // namespace
@@ -63,16 +81,7 @@ Checks row_splitting(StressRun& run) {
         checks.push_back(check);
         run.done(0.4 * static_cast<double>(checks.size()));
     }
-    Check crops = same_bits_check("cropped");
-    const int windows[][4] = {{0, 0, 40, 30}, {3, 5, 17, 11}, {39, 29, 1, 1}, {8, 0, 4, 30}};
-    for (const auto& [x, y, width, height] : windows) {
-        Scene part = scene;
-        part.film.crop_x = x, part.film.crop_y = y;
-        part.film.crop_width = width, part.film.crop_height = height;
-        add_images(crops, full, image_of(run, part, bad),
-                   fmt::format("crop {},{},{},{}", x, y, width, height));
-    }
-    checks.push_back(crops);
+    checks.push_back(cropped(run, scene, bad));
     checks.push_back(bad);
     return checks;
 }

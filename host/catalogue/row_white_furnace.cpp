@@ -32,13 +32,17 @@ Checks row_white_furnace(StressRun& run) {
         for (double alpha : furnace_roughnesses) {
             add_furnaces(lossless(material_roughconductor, distribution, alpha, alpha, 1.5), {0.3},
                          metal);
-            for (double index : {1.01, 1.5, 2.5, 1 / 1.33, 1 / 2.5})
+            for (double index : {1.01, 1.1, 1.5, 2.5, 1 / 1.01, 1 / 1.33, 1 / 2.5})
                 add_furnaces(lossless(material_roughdielectric, distribution, alpha, alpha, index),
                              {0.3}, glass);
         }
-        for (auto [u, v] : {std::pair{0.05, 0.2}, {0.3, 0.1}, {0.1, 1.0}})
-            add_furnaces(lossless(material_roughconductor, distribution, u, v, 1.5),
-                         {0, 0.3, 0.8, M_PI / 2}, anisotropic);
+        const std::vector<double> azimuths{0, 0.05, 0.3, 0.8, 1.2, M_PI / 2, 2.5};
+        for (auto [u, v] :
+             {std::pair{0.05, 0.2}, {0.3, 0.1}, {0.1, 1.0}, {0.01, 0.3}, {1.0, 0.002}})
+            add_furnaces(lossless(material_roughconductor, distribution, u, v, 1.5), azimuths,
+                         anisotropic);
+        add_furnaces(lossless(material_roughdielectric, distribution, 0.1, 0.4, 1.5), azimuths,
+                     anisotropic);
         for (double alpha : ends_of("roughconductor"))
             add_furnaces(lossless(material_roughconductor, distribution, alpha, alpha, 1.5), {0.3},
                          ends);
@@ -48,7 +52,7 @@ Checks row_white_furnace(StressRun& run) {
                              {0.3}, ends);
         checks.push_back(furnace_check(name + " metal", metal));
         checks.push_back(furnace_check(name + " glass", glass));
-        checks.push_back(furnace_check(name + " metal, anisotropic", anisotropic));
+        checks.push_back(furnace_check(name + ", anisotropic", anisotropic));
         checks.push_back(furnace_check(name + ", ends of what scenes may ask for", ends));
         run.done(0.5 + 0.5 * distribution);
     }

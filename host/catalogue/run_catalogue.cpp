@@ -20,8 +20,10 @@ namespace parhelion::stress {
 namespace {
 
 std::vector<Row> wanted_rows(const std::string& filter) {
-    std::vector<Row> rows;
-    for (const Row& row : catalogue())
+    std::vector<Row> rows, all = catalogue();
+    for (const Row& row : all)
+        if (row.name == filter) return {row};
+    for (const Row& row : all)
         if (row.name.find(filter) != std::string::npos || row.chapter == filter)
             rows.push_back(row);
     if (rows.empty())
@@ -33,6 +35,23 @@ std::vector<Row> wanted_rows(const std::string& filter) {
 void list_rows(const std::vector<Row>& rows) {
     for (const Row& row : rows)
         print(fmt::format("{:<12} {:<34} {}\n", row.chapter, row.name, row.title));
+}
+
+/// A name, and the options that tell the way to compile kernels: what tests/CMakeLists.txt reads.
+void list_tests(const std::vector<Row>& rows) {
+    for (const Row& row : rows)
+        if (row.ways == Ways::one)
+            print(row.name + '\n');
+        else
+            for (const KernelWay& way : kernel_ways)
+                print(fmt::format("{} --lanes {}{}\n", row.name, way.lanes,
+                                  way.portable ? " --portable" : ""));
+}
+
+Effort effort_of(const StressCommand& c) {
+    if (c.brief + c.quick + c.full > 1)
+        throw InputError("stress: one of --brief, --quick and --full, not several");
+    return c.brief ? Effort::brief : c.full ? Effort::full : Effort::quick;
 }
 
 RowResult run_row(const Row& row, StressRun& run, Progress& progress) {
@@ -68,17 +87,19 @@ void check_outputs(const StressCommand& c) {
 } // namespace
 
 int run_catalogue(const StressCommand& c) {
-    if (c.quick && c.full) throw InputError("stress: --quick or --full, not both");
+    const Effort effort = effort_of(c);
     std::vector<Row> rows = wanted_rows(c.filter);
     if (c.list) {
-        list_rows(rows);
+        c.brief ? list_tests(rows) : list_rows(rows);
         return static_cast<int>(ExitCode::ok);
     }
     check_outputs(c);
     Progress progress = Progress::standard(c.quiet);
     RenderDevice& device = open_to_the_end(choose_device(c.device));
-    StressRun run(device, c.full ? Effort::full : Effort::quick, c.seed.value_or(1), progress);
-    Report report{c.full ? "full" : "quick", version_text(), run.seed, device.device, {}};
+    const KernelWay kernels{c.lanes > 0 ? c.lanes : device.device.lanes(), c.portable};
+    StressRun run(device, kernels, effort, c.seed.value_or(1), progress);
+    const char* name = effort == Effort::brief ? "brief" : c.full ? "full" : "quick";
+    Report report{name, version_text(), run.seed, device.device, {}};
     for (const Row& row : rows)
         report.rows.push_back(run_row(row, run, progress));
     if (!c.json_file.empty())

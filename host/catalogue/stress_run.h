@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/catalogue/check.h"
+#include "host/numerics/kernel_ways.h"
 #include "host/numerics/traversal.h"
 #include "host/progress.h"
 #include "host/waves/render_device.h"
@@ -16,18 +17,21 @@
 namespace parhelion::stress {
 
 /// How much is tried. Rows scale their counts by it; what is small is exhausted in any case.
-enum class Effort { test, quick, full };
+enum class Effort { brief, quick, full };
 
 class StressRun {
 public:
-    StressRun(RenderDevice& d, Effort e, std::uint64_t s, Progress& progress)
-        : device(d), effort(e), seed(s), progress_(progress) {}
+    StressRun(RenderDevice& d, const KernelWay& k, Effort e, std::uint64_t s, Progress& progress)
+        : device(d), kernels(k), effort(e), seed(s), progress_(progress) {}
     /// Keeps its programs for the next run.
     ~StressRun();
     StressRun(const StressRun&) = delete;
 
     /// A count by effort.
-    std::uint64_t count(std::uint64_t test, std::uint64_t quick, std::uint64_t full) const;
+    std::uint64_t count(std::uint64_t brief, std::uint64_t quick, std::uint64_t full) const;
+    /// Whether the kernels are those that suit the device: what no kernel has a say in is asked
+    /// with them alone.
+    bool usual_kernels() const;
     /// That share of the row is done. Any thread may say so.
     void done(double fraction);
     /// The device's program of kernels/stress/<file>.cl, compiled once.
@@ -36,6 +40,7 @@ public:
     Traversal& traversal();
 
     RenderDevice& device;
+    const KernelWay kernels; ///< of all that the row does not compile in other ways itself
     const Effort effort;
     const std::uint64_t seed;
 
@@ -46,11 +51,15 @@ private:
     std::optional<Traversal> traversal_;
 };
 
+/// Whether tests ask a row once, or once a way to compile kernels.
+enum class Ways { one, every };
+
 /// A row of the catalogue: checks that are run together.
 struct Row {
     std::string name;    ///< for --filter
     std::string chapter; ///< of the report
     std::string title;   ///< what it asks, in a sentence
+    Ways ways = Ways::one;
     std::function<Checks(StressRun&)> run;
 };
 

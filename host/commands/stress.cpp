@@ -2,6 +2,7 @@
 // program of its own (host/catalogue).
 #include "host/commands/stress.h"
 
+#include "host/commands/render_domains.h"
 #include "host/scene/limits.h"
 
 #include <memory>
@@ -24,8 +25,16 @@ Subcommand stress_subcommand(std::function<int(const StressCommand&)> run) {
                     "  parhelion stress --list",
         .options = {{"--quick", &c->quick, "Under five minutes (the default)"},
                     {"--full", &c->full, "The release run: hours"},
-                    {"--filter", &c->filter, "Only rows whose name holds this, or of this chapter"},
-                    {"--list", &c->list, "Show the rows and end"},
+                    {"--brief", &c->brief, "Seconds a row: what the tests of a checkout run"},
+                    {"--filter", &c->filter,
+                     "Only the row of this name, or those whose name holds it, or of this chapter"},
+                    {"--list", &c->list,
+                     "Show the rows and end; with --brief: what tests ask, a line each"},
+                    {"--lanes",
+                     &c->lanes,
+                     "Paths a work-item handles at once: 16, 8 or 1",
+                     {.domain = lanes_domain}},
+                    {"--portable", &c->portable, "Kernels without x86 intrinsics"},
                     {"--report", &c->report_folder, "Folder for a page with tables and plots"},
                     {"--json", &c->json_file, "File for all figures"},
                     {"--seed", &c->seed, "Of the random inputs", {.domain = seed_domain}},

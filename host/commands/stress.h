@@ -10,7 +10,9 @@
 namespace parhelion {
 
 struct StressCommand {
-    bool quick = false, full = false, list = false, quiet = false, force = false;
+    bool brief = false, quick = false, full = false, list = false, quiet = false, force = false;
+    int lanes = 0; ///< 0: what suits the device
+    bool portable = false;
     std::string filter, report_folder, json_file, device;
     std::optional<std::uint32_t> seed;
 };

@@ -51,10 +51,10 @@ WordArrays run_on_host(const Probe& probe, const WordArrays& in, int count) {
     return out;
 }
 
-Program stress_program(const RenderDevice& device, const std::string& file, int lanes,
-                       bool portable) {
-    return {device.context, device.device, device.cache,
-            program_source({"stress/" + file + ".cl"}, {.lanes = lanes, .portable = portable})};
+Program stress_program(const RenderDevice& device, const std::string& file, const KernelWay& way) {
+    return {
+        device.context, device.device, device.cache,
+        program_source({"stress/" + file + ".cl"}, {.lanes = way.lanes, .portable = way.portable})};
 }
 
 ProbeKernel::ProbeKernel(const RenderDevice& device, const Program& program, int count)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/cl/buffer.h"
+#include "host/numerics/kernel_ways.h"
 #include "host/shared_maths.h"
 #include "host/waves/render_device.h"
 
@@ -50,10 +51,8 @@ WordArrays probe_inputs(const Probe& probe, int count, std::uint64_t seed);
 
 WordArrays run_on_host(const Probe& probe, const WordArrays& in, int count);
 
-/// kernels/stress/<file>.cl for a device: a group of probes, or other functions. Kernels of one
-/// program may run
-Program stress_program(const RenderDevice& device, const std::string& file, int lanes,
-                       bool portable);
+/// kernels/stress/<file>.cl for a device: a group of probes, or other functions.
+Program stress_program(const RenderDevice& device, const std::string& file, const KernelWay& way);
 
 class ProbeKernel {
 public:

@@ -1,5 +1,5 @@
-// The image depends on the scene alone, to the bit: not on crop, threads or what kernels can do
-// besides. Lanes and how work is split: row `splitting` of the stress test.
+// The image depends on the scene alone, to the bit: not on threads or what kernels can do besides.
+// Lanes, how work is split, and crops: row `splitting` of the catalogue.
 #include "host/image/exr.h"
 #include "host/numerics/every_kind_scene.h"
 #include "host/numerics/image_figures.h"
@@ -48,22 +48,6 @@ TEST_CASE("The image is the same bits however the work is done", "[render]") {
     SECTION("another seed is another image") {
         scene.sampler.seed++;
         CHECK(differing(reference, image_of(scene, {})) > 1000);
-    }
-    SECTION("crop") {
-        const int windows[][4] = {{0, 0, 40, 30}, {3, 5, 17, 11}, {39, 29, 1, 1}, {8, 0, 4, 30}};
-        for (bool border : {false, true})
-            for (FilterMethod method : {FilterMethod::splatting, FilterMethod::sampling}) {
-                scene.film.sample_border = border;
-                scene.film.filter_method = method;
-                Image full = image_of(scene, {});
-                for (const auto& [x, y, width, height] : windows) {
-                    Scene part = scene;
-                    part.film.crop_x = x, part.film.crop_y = y, part.film.crop_width = width,
-                    part.film.crop_height = height;
-                    CAPTURE(border, int(method), x, y, width, height);
-                    CHECK(differing(full, image_of(part, {})) == 0);
-                }
-            }
     }
 }
 

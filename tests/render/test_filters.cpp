@@ -63,10 +63,10 @@ Scene edge_scene(const Setting& setting) {
     glm::dvec3 origin(c.ox, c.oy, c.oz), corner(c.dx, c.dy, c.dz), step_x(c.ux, c.uy, c.uz),
         step_y(c.vx, c.vy, c.vz);
     constexpr double margin = 20, distance = 3; // pixels beyond the film, metres
-    Mesh light =
-        test::quad(origin + distance * (corner - margin * (step_x + step_y)),
-                   distance * (height + 2 * margin) * step_y, distance * (edge + margin) * step_x);
-    scene.shapes.push_back(test::shape_of(light, 0, 0, Rgb(1)));
+    Mesh light = numerics::quad(origin + distance * (corner - margin * (step_x + step_y)),
+                                distance * (height + 2 * margin) * step_y,
+                                distance * (edge + margin) * step_x);
+    scene.shapes.push_back(numerics::shape_of(light, 0, 0, Rgb(1)));
     return scene;
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("An edge has the profile of the filter's integral, however the filter 
 }
 
 TEST_CASE("Splatting leaves less noise than sampling the filter", "[render]") {
-    Scene scene = test::every_kind_scene();
+    Scene scene = numerics::every_kind_scene();
     scene.integrator.aovs.clear();
     scene.sampler.samples_per_pixel = 16;
     auto variance = [&](FilterMethod method) {

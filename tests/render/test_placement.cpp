@@ -1,5 +1,5 @@
 // Where a scene is and how large: the same bits of a scene scaled by a power of two or moved,
-// lengths and places aside. Other sizes and turns: row `scale_and_turn` of the stress test.
+// lengths and places aside. Other sizes and turns: row `scale_and_turn` of the catalogue.
 #include "tests/support/placed_scene.h"
 #include "tests/support/render_scene.h"
 

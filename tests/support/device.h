@@ -5,6 +5,7 @@
 #include "host/cl/buffer.h"
 #include "host/cl/program.h"
 #include "host/cl/source.h"
+#include "host/numerics/kernel_ways.h"
 #include "host/waves/render_device.h"
 
 #include <catch2/catch.hpp>
@@ -22,16 +23,8 @@ struct TestDevice : RenderDevice {
     TestDevice() : RenderDevice(choose_device("")) {}
 };
 
-/// How the same kernel text can be compiled. All of them must give the same bits.
-struct Variant {
-    int lanes;
-    bool portable;
-
-    std::string name() const {
-        return fmt::format("{} lanes{}", lanes, portable ? ", portable" : "");
-    }
-};
-inline constexpr Variant variants[] = {{16, false}, {16, true}, {8, false}, {8, true}, {1, false}};
+using Variant = numerics::KernelWay;
+inline constexpr auto& variants = numerics::kernel_ways;
 
 inline std::string test_kernel_text(const std::string& name) {
     std::filesystem::path path =

@@ -1,4 +1,4 @@
-// The stress test's rays through the kernels, for the device tests: in every way to compile them.
+// The rays of numerics through the kernels, for the device tests: in every way to compile them.
 #pragma once
 
 #include "host/numerics/traversal.h"

@@ -42,47 +42,7 @@ double mean_of_samples(const MaterialCase& c, f64::vec3 wo, int count) {
     return sum / count;
 }
 
-void check_furnaces(const char* title, const FurnaceError& error) {
-    fmt::print("{}: a white furnace is off by at most {:+.3f} % ({})\n", title, 100 * error.worst,
-               error.where);
-    CHECK(std::fabs(error.worst) <= 0.003);
-}
-
 } // namespace
-
-TEST_CASE("Energy compensation: rough metals keep what they receive", "[energy]") {
-    FurnaceError error;
-    for (int distribution : {0, 1})
-        for (double alpha : furnace_roughnesses)
-            add_furnaces(lossless(material_roughconductor, distribution, alpha, alpha, 1.5), {0.3},
-                         error);
-    check_furnaces("metals", error);
-}
-
-TEST_CASE("Energy compensation: rough glass keeps what it receives, from both sides", "[energy]") {
-    for (double index : {1.01, 1.1, 1.5, 2.5, 1 / 1.01, 1 / 1.33, 1 / 2.5}) {
-        FurnaceError error;
-        for (int distribution : {0, 1})
-            for (double alpha : furnace_roughnesses)
-                add_furnaces(lossless(material_roughdielectric, distribution, alpha, alpha, index),
-                             {0.3}, error);
-        check_furnaces("glass", error);
-    }
-}
-
-TEST_CASE("Energy compensation: anisotropic lobes keep what they receive", "[energy]") {
-    FurnaceError error;
-    const std::vector<double> azimuths{0, 0.05, 0.3, 0.8, 1.2, M_PI / 2, 2.5};
-    for (int distribution : {0, 1}) {
-        for (auto [u, v] :
-             {std::pair{0.05, 0.2}, {0.3, 0.1}, {0.1, 1.0}, {0.01, 0.3}, {1.0, 0.002}})
-            add_furnaces(lossless(material_roughconductor, distribution, u, v, 1.5), azimuths,
-                         error);
-        add_furnaces(lossless(material_roughdielectric, distribution, 0.1, 0.4, 1.5), azimuths,
-                     error);
-    }
-    check_furnaces("anisotropic", error);
-}
 
 TEST_CASE("Energy compensation: the share of single scattering is that of samples", "[energy]") {
     struct {

@@ -1,4 +1,5 @@
-// Every material of the list: samples follow the density that eval and sample claim (chi-square).
+// The chi-square test of densities notices what it should. Of every material: row `density` of the
+// catalogue.
 #include <catch2/catch.hpp>
 
 #include "host/numerics/density_test.h"
@@ -6,43 +7,13 @@
 using namespace parhelion;
 using namespace parhelion::numerics;
 
-namespace {
-
-void test_all(const std::vector<Configuration>& configurations, int count) {
-    REQUIRE(!configurations.empty());
-    double level = sidak_level(0.01, 2 * configurations.size());
-    std::uint64_t seed = 1000;
-    for (const Configuration& c : configurations) {
-        DensityTest t = test_density(c, count, seed++);
-        INFO(c.material.name << ", cosine " << c.wo.z);
-        CHECK(t.integral < 1 + 1e-4);
-        CHECK(t.p_value > level);
-        CHECK(t.p_missing > level);
-    }
-}
-
-} // namespace
-
-// One test case a kind: they take seconds each. Kinds of nothing but delta lobes have no density to
-// follow.
+// Kinds of nothing but delta lobes have no density to follow.
 #define DENSITY_TEST(label, sides)                                                                 \
-    TEST_CASE("Materials: samples follow the density, " #label, "[bsdf]") {                        \
-        std::vector<Configuration> mine = configurations(material_##label, false);                 \
-        CHECK(mine.empty() != configurations(material_##label, true).empty());                     \
-        if (!mine.empty()) test_all(mine, 100000);                                                 \
+    TEST_CASE("Materials: a density or delta lobes, " #label, "[bsdf]") {                          \
+        CHECK(configurations(material_##label, false).empty() !=                                   \
+              configurations(material_##label, true).empty());                                     \
     }
 MATERIALS(DENSITY_TEST)
-
-TEST_CASE("Materials: samples follow the density, a million samples", "[bsdf]") {
-    std::vector<Configuration> few;
-    for (int kind = 0; kind < material_kind_count; kind++)
-        for (const Configuration& c : configurations(kind, false)) {
-            double cosine = std::fabs(c.wo.z);
-            if (c.material.alpha_u != c.material.alpha_v && cosine > 0.4 && cosine < 0.6)
-                few.push_back(c);
-        }
-    test_all(few, 1000000);
-}
 
 TEST_CASE("Materials: the density test notices a roughness that is off by three percent",
           "[bsdf]") {
