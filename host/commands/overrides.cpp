@@ -85,6 +85,13 @@ AovRequest aov_request(const std::string& name) {
     return {name, name == "normals" ? "sh_normal" : name, {"--aov", 0}};
 }
 
+void check_replicates(const Sampler& sampler) {
+    if (sampler.replicates > 1 && sampler.pattern == SamplePattern::independent)
+        throw InputError(fmt::format(
+            "--replicates {}: independent samples have no pattern (accepted: --sampler faure)",
+            sampler.replicates));
+}
+
 bool is_cropped(const Film& film) {
     return film.crop_width > 0 && (film.crop_width < film.width || film.crop_height < film.height);
 }
@@ -128,6 +135,7 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (command.filter_method)
         film.filter_method = named("--filter-by", *command.filter_method, filter_methods);
     if (command.replicates) scene.sampler.replicates = *command.replicates;
+    check_replicates(scene.sampler);
     if (command.samples) scene.sampler.samples_per_pixel = *command.samples;
     if (command.max_depth) scene.integrator.max_depth = *command.max_depth;
     if (command.rr_depth) scene.integrator.rr_depth = *command.rr_depth;

@@ -201,6 +201,7 @@ TEST_CASE("Overrides: values that cannot be are refused", "[overrides]") {
                                    {"--integrator", "paths"},
                                    {"--sampler", "halton"},
                                    {"--filter-by", "hand"},
+                                   {"--sampler", "independent", "--replicates", "2"},
                                    {"--shading-normals", "smooth"}}) {
         INFO(wrong[0] << " " << wrong[1]);
         CHECK_THROWS_AS(scene_after(full, wrong), InputError);
@@ -208,6 +209,7 @@ TEST_CASE("Overrides: values that cannot be are refused", "[overrides]") {
     for (const Arguments& right : {Arguments{"--spp", "1"},
                                    {"--max-depth", "-1"},
                                    {"--rr-depth", "1"},
+                                   {"--sampler", "independent", "--replicates", "1"},
                                    {"--size", "65536x1"},
                                    {"--size", "1x65536"},
                                    {"--crop", "49,39,1,1"}})
