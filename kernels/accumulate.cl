@@ -36,8 +36,8 @@ FN void note_bad_sample(BlockResults block, const SampleGroup* g, int part, int 
     int pixel = part * LANES + lane;
     AT(global int, bad.first, bad_sample_known) = 1;
     AT(global int, bad.first, bad_sample_sample) = bad.sample + n;
-    AT(global int, bad.first, bad_sample_x) = bad.x + (pixel & 3);
-    AT(global int, bad.first, bad_sample_y) = bad.y + (pixel >> 2);
+    AT(global int, bad.first, bad_sample_x) = bad.x + BLOCK_COLUMN(pixel);
+    AT(global int, bad.first, bad_sample_y) = bad.y + BLOCK_ROW(pixel);
     AT(global int, bad.first, bad_sample_fault) = code % fault_count;
     AT(global int, bad.first, bad_sample_bounce) = told ? code / fault_count : -1;
 }
@@ -94,8 +94,8 @@ kernel void accumulate(KERNEL_PARAMETERS) {
     BadSamples bad;
     bad.counts = statistics + statistic_count * block + statistic_first_fault;
     bad.first = bad_samples + bad_sample_field_count * (long)tile;
-    bad.x = params.block_x + tile % params.blocks_x * 4;
-    bad.y = params.block_y + tile / params.blocks_x * 4;
+    bad.x = params.block_x + tile % params.blocks_x * BLOCK_SIDE;
+    bad.y = params.block_y + tile / params.blocks_x * BLOCK_SIDE;
     for (int first = 0; first < wave.sample_count; first += FILM_SAMPLES) {
         bad.sample = wave.first_sample + first;
         add_samples(gathered, wave, first, min(FILM_SAMPLES, wave.sample_count - first),

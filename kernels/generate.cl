@@ -40,8 +40,8 @@ typedef struct {
 FN FilmSample slot_pixels(RenderParams params, WaveParams wave, int slot, SlotSample s) {
     int block = slot_block(wave, slot);
     FilmSample f;
-    f.x = params.block_x + block % params.blocks_x * 4 + s.x;
-    f.y = params.block_y + block / params.blocks_x * 4 + s.y;
+    f.x = params.block_x + block % params.blocks_x * BLOCK_SIDE + s.x;
+    f.y = params.block_y + block / params.blocks_x * BLOCK_SIDE + s.y;
     f.valid = (f.x >= params.window_x) & (f.x < params.window_x + params.window_width) &
               (f.y >= params.window_y) & (f.y < params.window_y + params.window_height);
     f.pixel = f.y * params.pixel_stride + f.x;

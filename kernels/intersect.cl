@@ -11,9 +11,9 @@ FN void intersect_packets(global const BvhNode* nodes, global const BvhLine* lea
     for (int at = begin; at < end; at += LANES) {
         StatePlace place = state_place(path_state, params.state_stride, at);
         PacketRay rays =
-            packet_ray(ray_at_origin(place), ray_at_direction(place), tree_sizes(params));
+            packet_ray(ray_at_origin(place), ray_at_direction(place), params.tree_sizes);
         PacketHit hit =
-            traverse_packet(nodes, leaves, root, rays, tree_sizes(params), ray_at_t(place),
+            traverse_packet(nodes, leaves, root, rays, params.tree_sizes, ray_at_t(place),
                             ray_at_excluded(place), active_lanes(end - at), 0);
         store_hit(place, hit.t, hit.b1, hit.b2,
                   sel(hit.primitive == NO_PRIMITIVE, (Int)(-1), hit.primitive));
@@ -29,7 +29,7 @@ kernel void intersect(KERNEL_PARAMETERS) {
     int root = depth == 0 ? params.camera_root : params.root;
     if (HAS(ray_streams) && depth > 0)
         traverse_stream(bvh_nodes, bvh_leaves, root, path_state, params.state_stride, base, end, 0,
-                        tree_sizes(params));
+                        params.tree_sizes);
     else
         intersect_packets(bvh_nodes, bvh_leaves, root, path_state, params, base, end);
     if (depth > 0)

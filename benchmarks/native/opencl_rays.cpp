@@ -49,13 +49,7 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     film.filter.kind = FilterKind::box;
     split_.streams = 1;
     sizes_ = work_sizes({sample_window(film)}, 1, lanes, split_);
-    auto segments = static_cast<std::size_t>(sizes_.segments);
-    work_.path_state = {device.context, "path_state", path_word_count * sizes_.state_stride()};
-    work_.shadow_state = {device.context, "shadow_state",
-                          shadow_word_count * sizes_.state_stride()};
-    work_.results = {device.context, "results", result_field_count * sizes_.result_stride()};
-    work_.counts = {device.context, "counts", 2 * segments};
-    work_.statistics = {device.context, "statistics", statistic_count * segments};
+    work_ = wave_buffers(device.context, device.queue, buffer_counts(sizes_));
     film_ = {device.context, "film", 1};
 
     scene_.bvh_nodes = {device.context, device.queue, "nodes", bvh.nodes.data(), bvh.nodes.size()};
@@ -70,8 +64,7 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     params.window_width = params.window_height = side;
     params.blocks_x = sizes_.film.window.blocks_x;
     params.root = params.camera_root = root;
-    params.extent = bvh_extent(bvh, root);
-    params.side = bvh.side;
+    params.tree_sizes = {bvh_extent(bvh, root), bvh.side};
     bind_arguments(intersect_, scene_, work_, film_, params);
     bind_arguments(shadow_, scene_, work_, film_, params);
 }

@@ -4,7 +4,7 @@
 #include "benchmarks/native/tracer.h"
 #include "host/bvh/bvh.h"
 #include "host/cl/buffer.h"
-#include "host/waves/pipeline.h"
+#include "host/waves/device_waves.h"
 
 namespace parhelion::bench {
 

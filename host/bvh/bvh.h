@@ -14,7 +14,7 @@ namespace parhelion {
 struct Bvh {
     LargeVector<BvhNode> nodes;
     LargeVector<BvhLine> leaves;
-    float side = 0; ///< TreeSizes::side (kernels/shared/intersect.h), of all trees
+    float side = 0; ///< TreeSizes::side (kernels/shared/types.h), of all trees
 };
 
 /// What one call of bvh_append made.

@@ -12,8 +12,8 @@ struct TileRange {
     int first, last;
 
     TileRange(int pixel, int reach, int blocks)
-        : first(std::max(0, (pixel - reach) / 4)), last(std::min(blocks - 1, (pixel + reach) / 4)) {
-    }
+        : first(std::max(0, (pixel - reach) / BLOCK_SIDE)),
+          last(std::min(blocks - 1, (pixel + reach) / BLOCK_SIDE)) {}
 };
 
 } // namespace
@@ -30,8 +30,9 @@ void FilmReader::for_each_cell(int x, int y, F f) const {
     for (int row = rows.first; row <= rows.last; row++)
         for (int column = columns.first; column <= columns.last; column++) {
             std::size_t tile = static_cast<std::size_t>(row) * window.blocks_x + column;
-            int cell =
-                (from_y - 4 * row + window.reach) * side + from_x - 4 * column + window.reach;
+            int cell_x = from_x - BLOCK_SIDE * column + window.reach;
+            int cell_y = from_y - BLOCK_SIDE * row + window.reach;
+            int cell = cell_y * side + cell_x;
             f(tile * window.tile_cells() + cell);
         }
 }

@@ -8,8 +8,6 @@
 namespace parhelion {
 namespace {
 
-constexpr int block_side = 4;
-
 /// One axis of the window.
 struct Span {
     int first, length; // pixels
@@ -21,10 +19,10 @@ Span sampled_span(int crop, int crop_length, int film_length, int reach, int bor
     int end = std::min(crop + crop_length + reach, film_length + border);
     // Tiles add up in the same groups for any crop: blocks stand where the full film has them. Its
     // border lies in a block of its own, for reaches up to a block's side.
-    static_assert(FILTER_REACH_LIMIT <= block_side);
-    int before = reach > 0 ? (first + block_side) % block_side : 0;
+    static_assert(FILTER_REACH_LIMIT <= BLOCK_SIDE);
+    int before = reach > 0 ? (first + BLOCK_SIDE) % BLOCK_SIDE : 0;
     int block = first - before;
-    return {first, end - first, block, (end - block + block_side - 1) / block_side};
+    return {first, end - first, block, (end - block + BLOCK_SIDE - 1) / BLOCK_SIDE};
 }
 
 } // namespace

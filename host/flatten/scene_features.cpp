@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
 namespace parhelion {
@@ -20,6 +21,8 @@ constexpr std::array geometry_features{GEOMETRIES(FEATURE_GEOMETRY)};
 
 // Measured: packets win while the tree (50 bytes a primitive) stays near the caches' size.
 constexpr std::size_t primitives_for_packets = 500'000;
+
+constexpr int no_limit = std::numeric_limits<int>::max(); // of a path's edges
 
 /// "2 of 5 materials": decides a feature that any of them needs.
 template<class Records, class Needs>
@@ -121,7 +124,8 @@ struct Transport {
 };
 
 std::string edges(int longest) {
-    return longest < 0 ? "paths of any length" : fmt::format("paths of at most {} edges", longest);
+    return longest == no_limit ? "paths of any length"
+                               : fmt::format("paths of at most {} edges", longest);
 }
 
 /// After surfaces and lights.
@@ -134,19 +138,19 @@ Transport transport(const Integrator& integrator, const DeviceScene& records,
         return t;
     }
     t.lit = !records.lights.empty();
-    int longest = integrator.kind == IntegratorKind::direct ? 2 : integrator.max_depth;
+    int longest = longest_path(integrator);
     bool meetable = !(on & meetable_emitters).empty();
     t.emission = meetable && longest != 0;
-    t.several = longest < 0 || longest >= 2;
+    t.several = longest >= 2;
     t.next_event = t.lit && t.several && integrator.emitter_samples;
     // As in Mitsuba 3: what lets rays straight through is a surface like others to `direct`.
     t.through = integrator.kind == IntegratorKind::path &&
                 std::any_of(records.materials.begin(), records.materials.end(), lets_through);
     // After the last scattering only emission can be met: with point lights alone nothing is. But
     // what lies behind a surface that lets rays through covers the pixel, lit or not.
-    t.sees = meetable || (t.lit && (longest < 0 || longest >= 3)) || t.through;
+    t.sees = meetable || (t.lit && longest >= 3) || t.through;
     t.scatters = t.several && integrator.bsdf_samples && t.sees;
-    t.roulette = t.scatters && (longest < 0 || longest > integrator.rr_depth);
+    t.roulette = t.scatters && longest > integrator.rr_depth;
     t.found = fmt::format("{} lights, {}", records.lights.size(), edges(longest));
     return t;
 }
@@ -166,7 +170,10 @@ void decide_transport(const Scene& scene, const DeviceScene& records, FeatureDec
     out.decide(feature_scattering, t.scatters, t.found);
     out.decide(feature_russian_roulette, t.roulette,
                fmt::format("{}, roulette from edge {} on", t.found, integrator.rr_depth));
-    decide_by_request(out, feature_hide_emitters, t.asked && integrator.hide_emitters);
+    if (t.asked)
+        decide_by_request(out, feature_hide_emitters, integrator.hide_emitters);
+    else
+        out.decide(feature_hide_emitters, false, t.found);
     bool shaded = out.has(feature_vertex_normals) && (t.next_event || t.scatters);
     std::string normals =
         shading_normals_names[static_cast<std::size_t>(integrator.shading_normals)];
@@ -208,6 +215,20 @@ void decide_film(const Scene& scene, FeatureDecisions& out) {
 }
 
 } // namespace
+
+int longest_path(const Integrator& integrator) {
+    switch (integrator.kind) {
+    case IntegratorKind::path:
+        return integrator.max_depth < 0 ? no_limit : integrator.max_depth;
+    case IntegratorKind::direct:
+        return 2;
+    case IntegratorKind::depth:
+    case IntegratorKind::normals:
+    case IntegratorKind::aov:
+        return 1;
+    }
+    return 1;
+}
 
 FeatureDecisions scene_features(const Scene& scene, const DeviceScene& records) {
     FeatureDecisions out;

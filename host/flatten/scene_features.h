@@ -20,6 +20,9 @@ void decide_energy_compensation(DeviceScene& records);
 /// material, emitter and shape, and what looks for vertex normals, back materials and so on.
 FeatureSet neutral_features();
 
+/// Edges from the camera after which nothing more is to be seen; INT_MAX without limit.
+int longest_path(const Integrator& integrator);
+
 /// How rays are best traced among so many primitives.
 bool traced_in_streams(std::size_t primitives);
 

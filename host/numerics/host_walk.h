@@ -35,7 +35,7 @@ struct ReadyRay {
     std::array<int, 3> axis;
     f32::RayShear shear;
 
-    explicit ReadyRay(const Ray& r, f32::TreeSizes sizes = {0, 0}) : ray(r) {
+    explicit ReadyRay(const Ray& r, TreeSizes sizes = {0, 0}) : ray(r) {
         Vector size;
         for (int a = 0; a < 3; a++)
             size[a] = std::fabs(r.direction[a]);

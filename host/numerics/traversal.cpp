@@ -190,8 +190,7 @@ RenderParams Traversal::params(const Sizes& s) const {
     params.state_stride = params.result_stride = static_cast<int>(s.stride());
     params.segment_size = params.segment_stride = segment;
     params.root = params.camera_root = scene_.root;
-    params.extent = extent_;
-    params.side = scene_.bvh.side;
+    params.tree_sizes = {extent_, scene_.bvh.side};
     return params;
 }
 

@@ -1,4 +1,4 @@
-// Rendering a scene on a device: the wavefront loop.
+// Rendering a scene on a device.
 #include "host/render/path_tracer.h"
 
 #include "host/clock.h"
@@ -6,70 +6,17 @@
 #include "host/film/film_image.h"
 #include "host/flatten/scene_features.h"
 #include "host/waves/render_params.h"
-#include "host/waves/wave_schedule.h"
+#include "host/waves/wavefront.h"
 
 #include <fmt/format.h>
 
-#include <future>
-#include <mutex>
 #include <stdexcept>
 
 namespace parhelion {
 namespace {
 
-/// All bounces of one wave, then its samples to the film.
-void trace_wave(WaveStream& stream, const WaveParams& wave, const WorkSizes& sizes,
-                const RenderParams& params, bool next_event) {
-    stream.set_wave(wave);
-    stream.launch(Stage::generate, 0, sizes.segments);
-    for (int depth = 0; depth < params.max_depth; depth++) {
-        stream.launch(Stage::intersect, depth, sizes.segments);
-        stream.launch(Stage::shade, depth, sizes.segments);
-        if (depth + 1 == params.max_depth) break;
-        auto [paths, shadow_rays] = stream.read_counts();
-        if (next_event && shadow_rays > 0) stream.launch(Stage::shadow, depth, sizes.segments);
-        if (paths == 0) break;
-    }
-    stream.launch(Stage::accumulate, 0, wave.block_count);
-    stream.collect_times();
-}
-
-/// A host thread for each of several streams: while one waits for the last work-items of a stage,
-/// the device has the other's to do.
-void trace_image(Pipeline& pipeline, const Scene& scene, const WorkSizes& sizes,
-                 const RenderParams& params, bool next_event, Progress& progress) {
-    auto start = Clock::now();
-    int samples = scene.sampler.samples_per_pixel;
-    int blocks = static_cast<int>(sizes.film.window.tiles());
-    double paths = static_cast<double>(samples) * blocks * BLOCK_PIXELS;
-    WaveSchedule schedule(blocks, samples, sizes.blocks_per_wave, sizes.samples_per_wave);
-    std::mutex showing;
-    auto run = [&](WaveStream& stream) {
-        try {
-            while (auto wave = schedule.take()) {
-                trace_wave(stream, *wave, sizes, params, next_event);
-                std::scoped_lock lock(showing);
-                double done = schedule.finish(*wave);
-                double rate = done * paths / seconds_since(start) / 1e6;
-                progress.update(done, fmt::format("{:.2f} Mpaths/s", rate));
-            }
-        } catch (...) {
-            schedule.give_up();
-            throw;
-        }
-    };
-    std::vector<std::future<void>> streams;
-    auto policy = pipeline.streams().size() == 1 ? std::launch::deferred : std::launch::async;
-    for (WaveStream& stream : pipeline.streams())
-        streams.push_back(std::async(policy, run, std::ref(stream)));
-    for (auto& stream : streams)
-        stream.wait();
-    for (auto& stream : streams)
-        stream.get();
-}
-
-void check_bounds(Pipeline& pipeline) {
-    for (WaveStream& stream : pipeline.streams())
+void check_bounds(DeviceWaves& waves) {
+    for (WaveStream& stream : waves.streams())
         if (const char* buffer = stream.read_outside())
             throw std::logic_error(
                 fmt::format("a kernel reads or writes outside of its buffers, from {} on", buffer));
@@ -98,6 +45,30 @@ void check_film_memory(const Scene& scene, const FilmLayout& layout, const Devic
         device.name, static_cast<double>(device.memory_bytes) / 1e9));
 }
 
+DeviceWaves compiled(RenderDevice& device, const DeviceScene& flat, const RenderOptions& options,
+                     Progress& progress, RenderReport& report) {
+    progress.start("compiling kernels");
+    auto start = Clock::now();
+    DeviceWaves waves(device, {report.lanes, options.portable, render_features(flat, options),
+                               options.split.work_group_size, options.checked});
+    report.compile_seconds = seconds_since(start);
+    report.stages = waves.stage_reports();
+    report.compiler_peak_bytes = waves.compiler_peak_bytes();
+    progress.finish(report.all_cached() ? "cached" : "compiled");
+    for (const std::string& note : waves.notes())
+        progress.note("note: " + note);
+    return waves;
+}
+
+/// What the device knows after the last wave.
+void report_of(DeviceWaves& waves, RenderReport& report) {
+    add_counts(waves.read_statistics(), report);
+    if (report.non_finite_samples > 0) report.bad_samples = waves.read_bad_samples();
+    report.stages = waves.stage_reports();
+    report.device_pool_bytes = waves.pool_bytes();
+    report.device_film_bytes = waves.film_bytes();
+}
+
 } // namespace
 
 FeatureSet render_features(const DeviceScene& scene, const RenderOptions& options) {
@@ -105,8 +76,12 @@ FeatureSet render_features(const DeviceScene& scene, const RenderOptions& option
     return options.all_features ? wanted | neutral_features() : wanted;
 }
 
-RenderReport start_report(const Scene& scene, const DeviceScene& flat) {
-    RenderReport report;
+DeviceScene flattened(const Scene& scene, LightChoice light_choice, Progress& progress,
+                      RenderReport& report) {
+    progress.start("building the BVH");
+    auto start = Clock::now();
+    DeviceScene flat = make_device_scene(scene, light_choice);
+    report.bvh_seconds = seconds_since(start);
     report.scene_file = scene.file;
     report.width = scene.film.crop_width, report.height = scene.film.crop_height;
     report.samples_per_pixel = scene.sampler.samples_per_pixel;
@@ -120,17 +95,16 @@ RenderReport start_report(const Scene& scene, const DeviceScene& flat) {
     report.features = flat.features.on().names();
     report.skipped_features = (FeatureSet::all() - flat.features.on()).names();
     report.feature_reasons = flat.features.reasons();
-    return report;
-}
-
-void finish_flattening(const DeviceScene& scene, Progress& progress) {
-    progress.finish(fmt::format("{} primitives", scene.primitives.size()));
-    for (const std::string& note : scene.notes)
+    progress.finish(fmt::format("{} primitives", flat.primitives.size()));
+    for (const std::string& note : flat.notes)
         progress.note("note: " + note);
+    return flat;
 }
 
-void add_counts(const std::array<std::uint64_t, statistic_count>& statistics,
-                RenderReport& report) {
+void add_counts(std::span<const ulong> of_segments, RenderReport& report) {
+    std::array<std::uint64_t, statistic_count> statistics{};
+    for (std::size_t i = 0; i < of_segments.size(); i++)
+        statistics[i % statistic_count] += of_segments[i];
     report.camera_rays = report.paths = statistics[statistic_camera_rays];
     report.bounce_rays = statistics[statistic_bounce_rays];
     report.shadow_rays = statistics[statistic_shadow_rays];
@@ -144,60 +118,37 @@ void add_counts(const std::array<std::uint64_t, statistic_count>& statistics,
 
 RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
                     Progress& progress) {
+    RenderResult result;
+    RenderReport& report = result.report;
     AovPlan aovs = plan_aovs(scene);
-    int lanes = options.lanes > 0 ? options.lanes : device.device.lanes();
-
+    report.device = device.device.name;
+    report.driver = device.device.driver_version;
+    report.lanes = options.lanes > 0 ? options.lanes : device.device.lanes();
     WorkSplit split = options.split;
     split.streams = options.checked ? 1 : stream_count(split, device.device);
     WorkSizes sizes =
-        work_sizes(film_layout(scene, aovs), scene.sampler.samples_per_pixel, lanes, split);
+        work_sizes(film_layout(scene, aovs), scene.sampler.samples_per_pixel, report.lanes, split);
     check_film_memory(scene, sizes.film, device.device);
 
-    progress.start("building the BVH");
+    DeviceScene flat = flattened(scene, options.light_choice, progress, report);
+    DeviceWaves waves = compiled(device, flat, options, progress, report);
     auto start = Clock::now();
-    DeviceScene flat = make_device_scene(scene, options.light_choice);
-    RenderResult result;
-    result.report = start_report(scene, flat);
-    result.report.device = device.device.name;
-    result.report.driver = device.device.driver_version;
-    result.report.lanes = lanes;
-    result.report.bvh_seconds = seconds_since(start);
-    finish_flattening(flat, progress);
-
-    progress.start("compiling kernels");
-    start = Clock::now();
-    Pipeline pipeline(device, {lanes, options.portable, render_features(flat, options),
-                               options.split.work_group_size, options.checked});
-    result.report.compile_seconds = seconds_since(start);
-    result.report.stages = pipeline.stage_reports();
-    result.report.compiler_peak_bytes = pipeline.compiler_peak_bytes();
-    progress.finish(result.report.all_cached() ? "cached" : "compiled");
-    for (const std::string& note : pipeline.notes())
-        progress.note("note: " + note);
-
-    start = Clock::now();
     RenderParams params = render_params(scene, flat, sizes, aovs);
-    pipeline.upload(flat);
-    pipeline.allocate(sizes, params);
-    result.report.upload_seconds = seconds_since(start);
+    waves.upload(flat);
+    waves.allocate(sizes, params);
+    report.upload_seconds = seconds_since(start);
 
     progress.start("rendering");
     start = Clock::now();
-    bool next_event = flat.features.has(feature_next_event);
-    trace_image(pipeline, scene, sizes, params, next_event, progress);
-    if (options.checked) check_bounds(pipeline);
-    result.report.render_seconds = seconds_since(start);
-    add_counts(pipeline.read_statistics(), result.report);
-    if (result.report.non_finite_samples > 0)
-        result.report.bad_samples = pipeline.read_bad_samples();
-    result.report.stages = pipeline.stage_reports();
-    result.report.device_pool_bytes = pipeline.pool_bytes();
-    result.report.device_film_bytes = pipeline.film_bytes();
-    progress.finish(fmt::format(
-        "{:.2f} Mpaths/s, {:.2f} Mrays/s",
-        static_cast<double>(result.report.paths) / result.report.render_seconds / 1e6,
-        static_cast<double>(result.report.rays()) / result.report.render_seconds / 1e6));
-    result.image = film_image(pipeline.read_film(), sizes.film, scene, aovs, flat.frame);
+    trace_film(std::span(waves.streams()), sizes, scene.sampler.samples_per_pixel,
+               wave_loop(sizes, params, flat.features.on()), progress);
+    if (options.checked) check_bounds(waves);
+    report.render_seconds = seconds_since(start);
+    report_of(waves, report);
+    progress.finish(fmt::format("{:.2f} Mpaths/s, {:.2f} Mrays/s",
+                                static_cast<double>(report.paths) / report.render_seconds / 1e6,
+                                static_cast<double>(report.rays()) / report.render_seconds / 1e6));
+    result.image = film_image(waves.read_film(), sizes.film, scene, aovs, flat.frame);
     return result;
 }
 

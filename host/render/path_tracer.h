@@ -1,4 +1,4 @@
-// Rendering a scene on a device: the wavefront loop.
+// Rendering a scene on a device.
 #pragma once
 
 #include "host/flatten/device_scene.h"
@@ -6,7 +6,7 @@
 #include "host/progress.h"
 #include "host/render/report.h"
 #include "host/scene/scene.h"
-#include "host/waves/pipeline.h"
+#include "host/waves/device_waves.h"
 #include "host/waves/render_device.h"
 
 namespace parhelion {
@@ -33,12 +33,11 @@ struct RenderResult {
 RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
                     Progress& progress);
 
-/// What is known of a render before it starts, but for the device.
-RenderReport start_report(const Scene& scene, const DeviceScene& flat);
+/// As records, with what the report says of scene and picture.
+DeviceScene flattened(const Scene& scene, LightChoice light_choice, Progress& progress,
+                      RenderReport& report);
 
-/// Ends the step that made `scene`, and tells its notes.
-void finish_flattening(const DeviceScene& scene, Progress& progress);
-
-void add_counts(const std::array<std::uint64_t, statistic_count>& statistics, RenderReport& report);
+/// `of_segments`: STATISTICS and FAULTS of each.
+void add_counts(std::span<const ulong> of_segments, RenderReport& report);
 
 } // namespace parhelion

@@ -30,7 +30,7 @@ struct Kernels : WorkItem {
     void intersect(KERNEL_PARAMETERS) {
         int base = number * params.segment_stride, end = base + AT(int, counts, 2 * number);
         int root = depth == 0 ? params.camera_root : params.root;
-        TreeSizes sizes = tree_sizes(params);
+        TreeSizes sizes = params.tree_sizes;
         for (int at = base; at < end; at++) {
             StatePlace place = state_place(path_state, params.state_stride, at);
             PlainHit hit =

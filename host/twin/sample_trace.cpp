@@ -2,6 +2,7 @@
 #include "host/twin/sample_trace.h"
 
 #include "host/waves/render_params.h"
+#include "host/waves/wavefront.h"
 
 #include <bit>
 #include <cmath>
@@ -30,38 +31,38 @@ Triple times(const Triple& a, float s) { return {a[0] * s, a[1] * s, a[2] * s}; 
 Triple minus(const Triple& a, const Triple& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 float dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// The pool's only path.
+/// The pool's only path, as it lies in the buffers.
 class OnePath {
 public:
-    OnePath(const HostLaunch<float>& launch) : launch_(launch) {}
+    OnePath(const WaveMemory<float>& memory, const RenderParams& params)
+        : memory_(memory), params_(params) {}
 
-    void run(Stage stage, int depth) { run_work_item(stage, launch_, depth, 0); }
-    ShadeNotes shade(int depth) { return shade_noted(launch_, depth); }
-    bool lives() const { return launch_.memory.counts[0] > 0; }
-    bool has_shadow_ray() const { return launch_.memory.counts[1] > 0; }
+    bool lives() const { return memory_.counts[0] > 0; }
+    bool has_shadow_ray() const { return memory_.counts[1] > 0; }
 
-    float path(PathWord f) const { return state(launch_.memory.path_state, f); }
-    float shadow(ShadowWord f) const { return state(launch_.memory.shadow_state, f); }
-    Triple path3(PathWord f) const { return triple(launch_.memory.path_state, f); }
-    Triple shadow3(ShadowWord f) const { return triple(launch_.memory.shadow_state, f); }
+    float path(PathWord f) const { return state(memory_.path_state, f); }
+    Triple path3(PathWord f) const { return triple(memory_.path_state, f); }
+    Triple shadow3(ShadowWord f) const { return triple(memory_.shadow_state, f); }
     int path_int(PathWord f) const { return std::bit_cast<int>(path(f)); }
-    int shadow_int(ShadowWord f) const { return std::bit_cast<int>(shadow(f)); }
+    int shadow_int(ShadowWord f) const {
+        return std::bit_cast<int>(state(memory_.shadow_state, f));
+    }
     /// Of the sample, which is the first of its block.
     float result(int channel) const {
-        return launch_.memory
-            .results[static_cast<std::size_t>(channel) * launch_.params.result_stride];
+        return memory_.results[static_cast<std::size_t>(channel) * params_.result_stride];
     }
     Triple radiance() const { return {result(result_r), result(result_g), result(result_b)}; }
 
 private:
     float state(const std::vector<float>& s, int field) const {
-        return s[static_cast<std::size_t>(field) * launch_.params.state_stride];
+        return s[static_cast<std::size_t>(field) * params_.state_stride];
     }
     Triple triple(const std::vector<float>& s, int field) const {
         return {state(s, field), state(s, field + 1), state(s, field + 2)};
     }
 
-    const HostLaunch<float>& launch_;
+    const WaveMemory<float>& memory_;
+    const RenderParams& params_;
 };
 
 void read_ray(const OnePath& path, TraceVertex& v) {
@@ -118,40 +119,87 @@ void find_not_finite(TraceVertex& v) {
           finite(v.goes_on ? v.throughput_after : times(v.throughput, v.notes.scattered->weight)));
 }
 
-/// One bounce; whether the path goes on.
-bool trace_vertex(OnePath& path, const DeviceScene& scene, bool last, TraceVertex& v) {
-    read_ray(path, v);
-    path.run(Stage::intersect, v.bounce);
-    read_hit(path, scene, v);
-    int number = path.path_int(path_primitive);
-    Triple before = path.radiance();
-    v.notes = path.shade(v.bounce);
-    v.emission = minus(path.radiance(), before);
-    if (v.hit) read_material(scene, number, v);
-    if (!last && v.hit) {
-        v.light = unsent_light(v);
-        v.shadow_ray = path.has_shadow_ray();
-        v.goes_on = path.lives();
-        if (v.goes_on) v.throughput_after = path.path3(path_throughput);
+/// A WaveDevice for one sample: runs the stages as the host does, and looks at the path in between.
+class TracedWave {
+public:
+    TracedWave(const HostLaunch<float>& launch, const DeviceScene& scene)
+        : launch_(launch), path_(launch.memory, launch_.params), scene_(scene) {}
+
+    void begin_wave(const WaveParams& wave) { launch_.wave = wave; }
+    void launch(Stage stage, int depth, int) {
+        switch (stage) {
+        case Stage::generate:
+            run(stage, depth);
+            trace_.on_film = path_.lives();
+            break;
+        case Stage::intersect:
+            if (path_.lives()) begin_vertex(depth);
+            break;
+        case Stage::shade:
+            if (path_.lives()) shade(trace_.vertices.back());
+            break;
+        case Stage::shadow:
+            run(stage, depth);
+            trace_.vertices.back().blocked = path_.shadow_int(shadow_blocked) != 0;
+            break;
+        case Stage::accumulate:
+            add_up();
+        }
     }
-    if (v.shadow_ray) {
-        v.light = path.shadow3(shadow_contribution);
-        path.run(Stage::shadow, v.bounce);
-        v.blocked = path.shadow_int(shadow_blocked) != 0;
+    std::span<const int> read_counts() const { return launch_.memory.counts; }
+    void end_wave() {}
+
+    SampleTrace take() { return std::move(trace_); }
+
+private:
+    void run(Stage stage, int depth) { run_work_item(stage, launch_, depth, 0); }
+    void begin_vertex(int depth);
+    void shade(TraceVertex& v);
+    void add_up();
+
+    HostLaunch<float> launch_;
+    OnePath path_;
+    const DeviceScene& scene_;
+    SampleTrace trace_;
+    float pdf_ = std::numeric_limits<float>::infinity(); ///< of the next vertex's direction
+};
+
+/// Where the ray comes from and what it hits.
+void TracedWave::begin_vertex(int depth) {
+    TraceVertex& v = trace_.vertices.emplace_back();
+    v.bounce = depth;
+    v.pdf = pdf_;
+    read_ray(path_, v);
+    run(Stage::intersect, depth);
+    read_hit(path_, scene_, v);
+}
+
+void TracedWave::shade(TraceVertex& v) {
+    int number = path_.path_int(path_primitive);
+    Triple before = path_.radiance();
+    v.notes = shade_noted(launch_, v.bounce);
+    v.emission = minus(path_.radiance(), before);
+    if (v.hit) {
+        read_material(scene_, number, v);
+        v.shadow_ray = path_.has_shadow_ray();
+        v.light = v.shadow_ray ? path_.shadow3(shadow_contribution) : unsent_light(v);
+        v.goes_on = path_.lives();
+        if (v.goes_on) v.throughput_after = path_.path3(path_throughput);
     }
+    if (v.notes.scattered) pdf_ = v.notes.scattered->pdf;
     find_not_finite(v);
-    return v.goes_on;
+    if (!v.not_finite.empty() && trace_.first_not_finite < 0) trace_.first_not_finite = v.bounce;
 }
 
 /// What the film gets.
-void add_up(OnePath& path, const WaveMemory<float>& memory, SampleTrace& trace) {
-    trace.radiance = path.radiance();
-    trace.alpha = path.result(result_alpha), trace.weight = path.result(result_weight);
-    path.run(Stage::accumulate, 0);
-    for (const BadSample& bad : first_bad_samples({memory.bad_samples}))
-        trace.left_out = bad;
+void TracedWave::add_up() {
+    trace_.radiance = path_.radiance();
+    trace_.alpha = path_.result(result_alpha), trace_.weight = path_.result(result_weight);
+    run(Stage::accumulate, 0);
+    for (const BadSample& bad : first_bad_samples({launch_.memory.bad_samples}))
+        trace_.left_out = bad;
     // The place of its alpha says what went wrong.
-    if (std::isnan(trace.weight)) trace.alpha = trace.weight;
+    if (std::isnan(trace_.weight)) trace_.alpha = trace_.weight;
 }
 
 } // namespace
@@ -160,26 +208,13 @@ SampleTrace trace_sample(const Scene& scene, const DeviceScene& flat, int x, int
     AovPlan aovs = plan_aovs(scene);
     WorkSizes sizes = sizes_of_one(scene, aovs, x, y);
     WaveMemory<float> memory(sizes);
+    RenderParams params = render_params(scene, flat, sizes, aovs);
     // Streams store whether a shadow ray was blocked; their answers are those of packets.
-    HostLaunch<float> launch{scene_arrays(flat), render_params(scene, flat, sizes, aovs),
-                             flat.features.on() | FeatureSet{feature_ray_streams},
-                             WaveParams{0, 1, sample, 1}, memory};
-    OnePath path(launch);
-    path.run(Stage::generate, 0);
-    SampleTrace trace;
+    FeatureSet features = flat.features.on() | FeatureSet{feature_ray_streams};
+    TracedWave device({scene_arrays(flat), params, features, WaveParams{}, memory}, flat);
+    trace_wave(device, WaveParams{0, 1, sample, 1}, wave_loop(sizes, params, features));
+    SampleTrace trace = device.take();
     trace.x = x, trace.y = y, trace.sample = sample;
-    trace.on_film = path.lives();
-    float pdf = std::numeric_limits<float>::infinity();
-    for (bool alive = trace.on_film; alive;) {
-        TraceVertex& v = trace.vertices.emplace_back();
-        v.pdf = pdf;
-        v.bounce = static_cast<int>(trace.vertices.size()) - 1;
-        bool last = v.bounce + 1 == launch.params.max_depth;
-        alive = trace_vertex(path, flat, last, v);
-        if (v.notes.scattered) pdf = v.notes.scattered->pdf;
-        if (!v.not_finite.empty() && trace.first_not_finite < 0) trace.first_not_finite = v.bounce;
-    }
-    add_up(path, memory, trace);
     return trace;
 }
 

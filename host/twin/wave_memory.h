@@ -4,9 +4,8 @@
 
 #include "host/flatten/scene_arrays.h"
 #include "host/waves/stages.h"
-#include "host/waves/wave_stream.h"
+#include "host/waves/work_sizes.h"
 
-#include <algorithm>
 #include <type_traits>
 #include <vector>
 
@@ -17,22 +16,20 @@ namespace parhelion {
 template<class Real, class T>
 using WorkElement = std::conditional_t<std::is_same_v<T, float>, Real, T>;
 
+#define WORK_RESIZE(type, name) name.resize(sizes_of.name);
 #define WORK_MEMBER(type, name) std::vector<WorkElement<Real, type>> name;
 template<class Real>
 struct WaveMemory {
     WORK_BUFFERS(WORK_MEMBER)
 
     /// All zero.
-    explicit WaveMemory(const WorkSizes& s)
-        : path_state(path_word_count * s.state_stride()),
-          shadow_state(shadow_word_count * s.state_stride()),
-          results(s.film.result_channels() * s.result_stride()),
-          counts(2 * static_cast<std::size_t>(s.segments)),
-          statistics(statistic_count *
-                     static_cast<std::size_t>(std::max(s.segments, s.blocks_per_wave))),
-          bad_samples(s.bad_sample_words()), film(s.film.floats()) {}
+    explicit WaveMemory(const WorkSizes& sizes) {
+        BufferCounts sizes_of = buffer_counts(sizes);
+        WORK_BUFFERS(WORK_RESIZE)
+    }
 };
 #undef WORK_MEMBER
+#undef WORK_RESIZE
 
 /// A launch of one work-item of a stage needs all of this.
 template<class Real>

@@ -2,30 +2,12 @@
 #include "host/waves/render_params.h"
 
 #include "host/flatten/camera_record.h"
+#include "host/flatten/scene_features.h"
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 namespace parhelion {
-namespace {
-
-/// Edges from the camera after which nothing more is to be seen.
-int longest_path(const Integrator& integrator) {
-    switch (integrator.kind) {
-    case IntegratorKind::path:
-        return integrator.max_depth < 0 ? std::numeric_limits<int>::max() : integrator.max_depth;
-    case IntegratorKind::direct:
-        return 2;
-    case IntegratorKind::depth:
-    case IntegratorKind::normals:
-    case IntegratorKind::aov:
-        return 1;
-    }
-    return 1;
-}
-
-} // namespace
 
 RenderParams render_params(const Scene& scene, const DeviceScene& device, const WorkSizes& sizes,
                            const AovPlan& aovs) {
@@ -61,8 +43,7 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.aov_channels = sizes.film.aov_channels;
     p.camera_root = device.camera_root;
     p.root = device.root;
-    p.extent = bvh_extent(device.bvh, device.root);
-    p.side = device.bvh.side;
+    p.tree_sizes = {bvh_extent(device.bvh, device.root), device.bvh.side};
     std::fill(std::begin(p.aov_offset), std::end(p.aov_offset), -1);
     for (const AovLayer& layer : aovs.layers)
         p.aov_offset[layer.kind] = layer.channel;

@@ -30,22 +30,23 @@ FN void splat_weights(SplatWeights* w, global const float* values, int reach, Re
 }
 
 #if LANES > 1
+// A row of a block.
 typedef float4 Float4Anywhere __attribute__((aligned(4)));
 typedef union {
     Real lanes;
-    float4 rows[LANES / 4];
+    float4 rows[LANES / BLOCK_SIDE];
 } PixelRows;
 #endif
 
 /// Adds a part of a block's pixels to the tile, the block's corner at (x, y).
 FN void tile_add(Scalar* tile, int side, int x, int y, int part, Real v) {
 #if LANES == 1
-    tile[(y + part / 4) * side + x + part % 4] += v;
+    tile[(y + BLOCK_ROW(part)) * side + x + BLOCK_COLUMN(part)] += v;
 #else
     PixelRows pixels;
     pixels.lanes = v;
-    Scalar* corner = tile + (y + part * (LANES / 4)) * side + x;
-    for (int row = 0; row < LANES / 4; row++) {
+    Scalar* corner = tile + (y + part * (LANES / BLOCK_SIDE)) * side + x;
+    for (int row = 0; row < LANES / BLOCK_SIDE; row++) {
     private
         Float4Anywhere* cells = (private Float4Anywhere*)(corner + row * side);
         *cells += pixels.rows[row];
@@ -56,11 +57,11 @@ FN void tile_add(Scalar* tile, int side, int x, int y, int part, Real v) {
 /// What the tile has for a part of a block's pixels.
 FN Real tile_load(const Scalar* tile, int side, int x, int y, int part) {
 #if LANES == 1
-    return tile[(y + part / 4) * side + x + part % 4];
+    return tile[(y + BLOCK_ROW(part)) * side + x + BLOCK_COLUMN(part)];
 #else
     PixelRows pixels;
-    const Scalar* corner = tile + (y + part * (LANES / 4)) * side + x;
-    for (int row = 0; row < LANES / 4; row++)
+    const Scalar* corner = tile + (y + part * (LANES / BLOCK_SIDE)) * side + x;
+    for (int row = 0; row < LANES / BLOCK_SIDE; row++)
         pixels.rows[row] = *(private const Float4Anywhere*)(corner + row * side);
     return pixels.lanes;
 #endif

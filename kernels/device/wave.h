@@ -5,6 +5,10 @@
 #ifndef PARHELION_WAVE_H
 #define PARHELION_WAVE_H
 
+#if BLOCK_SIDE != 4
+#error "the order of pixels is written for blocks of 4 x 4"
+#endif
+
 #define BLOCK_PARTS (BLOCK_PIXELS / LANES)
 
 /// The block of a packet: a block's slots are whole packets.
@@ -37,7 +41,7 @@ FN SlotSample slot_sample(WaveParams w, int slot) {
 /// The slots, from the first of their block on, of one sample of a part of the block's pixels, row
 /// by row; the inverse of slot_sample.
 FN Int part_slots(WaveParams w, int part, int sample) {
-    Int pixel = (Int)(part * LANES) + LANE_INDEX, x = pixel & 3, y = pixel >> 2;
+    Int pixel = (Int)(part * LANES) + LANE_INDEX, x = BLOCK_COLUMN(pixel), y = BLOCK_ROW(pixel);
     Int place = (x & 1) | ((y & 1) << 1) | ((x & 2) << 1) | ((y & 2) << 2);
     return place * w.sample_count + sample;
 }

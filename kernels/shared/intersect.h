@@ -101,24 +101,12 @@ FN Intersection intersect_disk(vec3 to_centre, vec3 direction, vec3 edge_u, vec3
 // all sides, and so are those of spheres and disks. What is left are 18 u of the distance
 // (HIT_WIDENING).
 
-/// Of all triangles of a tree: the largest side of a box around them, and the longest side, along
-/// an axis, of one whose own box is not larger than itself.
-typedef struct {
-    Scalar extent, side;
-} TreeSizes;
-
-FN TreeSizes tree_sizes(RenderParams params) {
-    TreeSizes s;
-    s.extent = params.extent, s.side = params.side;
-    return s;
-}
-
 #define BOX_BEYOND 1.4551915228366852e-11f // 2^-36
 
 /// For any hit, which does not depend on the order of the walk: rays that end at a light need not
 /// look at its box.
 FN TreeSizes blocking_sizes(RenderParams params) {
-    TreeSizes s = tree_sizes(params);
+    TreeSizes s = params.tree_sizes;
     s.side = 0;
     return s;
 }

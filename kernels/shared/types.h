@@ -150,6 +150,13 @@ LAYOUT(BvhPatch, 256);
 #define BVH_PATCH_NUMBERS 18
 #define BVH_PATCH_BASE 13
 
+// Of all triangles of a tree: the largest side of a box around them, and the longest side, along an axis, of one whose own box is
+// not larger than itself.
+typedef struct {
+    float extent, side;
+} TreeSizes;
+LAYOUT(TreeSizes, 8);
+
 // --------------------------------------------------------------------------------------------------- camera
 // A ray through the pixel position (x, y), in pixels from the top left corner of the full film:
 // direction = corner + x * step_x + y * step_y, whose length along the optical axis is 1.
@@ -178,7 +185,7 @@ LAYOUT(CameraRecord, 116);
     X(int, pixel_stride)                      /* from one row's pixel numbers to the next one's */  \
     X(int, sample_border)                     /* 1: samples beyond the edge of the film count */    \
     X(int, window_x) X(int, window_y) X(int, window_width) X(int, window_height) /* sampled */     \
-    X(int, block_x) X(int, block_y)           /* pixel in the corner of the first 4x4 block */      \
+    X(int, block_x) X(int, block_y)           /* pixel in the corner of the first block */          \
     X(int, blocks_x)                          /* blocks in a row of the window */                   \
     X(int, seed)                                                                                   \
     X(int, replicate_bits)                    /* the pattern is 2^these */                          \
@@ -194,12 +201,12 @@ LAYOUT(CameraRecord, 116);
     X(int, segment_size)                      /* path slots owned by one work-item */               \
     X(int, segment_stride)                    /* their entries in the path state, with padding */   \
     X(int, aov_channels)                                                                           \
-    X(int, camera_root) X(int, root)          /* BVH roots for camera rays and for all others */   \
-    X(float, extent) X(float, side)           /* TreeSizes of all trees */
+    X(int, camera_root) X(int, root)          /* BVH roots for camera rays and for all others */
 typedef struct {
     CameraRecord camera;
     RENDER_FIELDS(FIELD_DECLARE)
-    int aov_offset[AOV_LIMIT]; // first film channel of each AOV kind, -1: not asked for
+    TreeSizes tree_sizes;      // of all trees
+    int aov_offset[AOV_LIMIT]; // AOV_CHANNEL of each kind's first, -1: not asked for
 } RenderParams;
 LAYOUT(RenderParams, 116 + 29 * 4 + AOV_LIMIT * 4);
 
@@ -211,12 +218,18 @@ typedef struct {
 } WaveParams;
 LAYOUT(WaveParams, 16);
 
-#define BLOCK_PIXELS 16
+// Pixels are sampled and summed up in square blocks.
+#define BLOCK_SHIFT 2
+#define BLOCK_SIDE (1 << BLOCK_SHIFT)
+#define BLOCK_PIXELS (BLOCK_SIDE * BLOCK_SIDE)
+// Where the k-th pixel of a block lies in it, counted row by row.
+#define BLOCK_COLUMN(k) ((k) & (BLOCK_SIDE - 1))
+#define BLOCK_ROW(k) ((k) >> BLOCK_SHIFT)
 
 // A block's samples go to a tile of the film: the block, and around it as many pixels as the filter reaches. Its cells, row by
 // row, are padded to whole packets.
 #define FILTER_REACH_LIMIT 4
-#define TILE_SIDE(reach) (4 + 2 * (reach))
+#define TILE_SIDE(reach) (BLOCK_SIDE + 2 * (reach))
 #define TILE_CELLS(reach) ((TILE_SIDE(reach) * TILE_SIDE(reach) + 15) / 16 * 16)
 
 // So many samples of a block are added up before the film gets their sum: waves hold a multiple of them.

@@ -45,7 +45,7 @@ includes_in() {
 
 # ------------------------------------------------------------------------------------------ includes
 
-# The floor a shared header stands on; nothing for the lists (materials.h, ...), which may stand anywhere.
+# The floor a shared header stands on; nothing for a list, which may stand anywhere.
 floor_of() {
     case $1 in
         lane.h) echo 0 ;;
@@ -53,7 +53,7 @@ floor_of() {
         bsdf.h | emitter.h | camera.h | roulette.h) echo 4 ;;
         bsdf_types.h | emitter_types.h) echo 2 ;;
         bsdf_*.h | emitter_*.h) echo 3 ;;
-        materials.h | emitters.h | aovs.h | records.h) ;;
+        records.h) ;;
         *) echo 2 ;;
     esac
 }

@@ -30,19 +30,19 @@ const char* left_buffer(const Scene& scene, const DeviceScene& flat) {
     RenderDevice& device = test_device();
     StageOptions options;
     options.lanes = 16, options.features = flat.features.on(), options.checked = true;
-    Pipeline pipeline(device, options);
+    DeviceWaves waves(device, options);
     AovPlan aovs = plan_aovs(scene);
     WorkSplit split;
     split.streams = 1;
     WorkSizes sizes =
         work_sizes(film_layout(scene, aovs), scene.sampler.samples_per_pixel, 16, split);
-    pipeline.upload(flat);
-    pipeline.allocate(sizes, render_params(scene, flat, sizes, aovs));
-    WaveStream& stream = pipeline.streams().front();
-    stream.set_wave({0, sizes.blocks_per_wave, 0, sizes.samples_per_wave});
+    waves.upload(flat);
+    waves.allocate(sizes, render_params(scene, flat, sizes, aovs));
+    WaveStream& stream = waves.streams().front();
+    stream.begin_wave({0, sizes.blocks_per_wave, 0, sizes.samples_per_wave});
     for (Stage stage : {Stage::generate, Stage::intersect, Stage::shade})
         stream.launch(stage, 0, sizes.segments);
-    stream.collect_times();
+    stream.end_wave();
     return stream.read_outside();
 }
 

@@ -56,4 +56,10 @@ TEST_CASE("Feature decisions: each is made once, and says what was found") {
     auto why = make_device_scene(two_of_every()).features.reasons();
     CHECK(why.at("shape_disk") != why.at("shape_triangle"));
     CHECK(make_device_scene(nothing).features.reasons().at("several_lights") == "0 lights");
+    // Hidden from a view of normals by the camera's tree alone.
+    nothing.integrator.hide_emitters = true;
+    CHECK(make_device_scene(nothing).features.why(feature_hide_emitters) == "asked for");
+    nothing.integrator.kind = IntegratorKind::normals;
+    CHECK(make_device_scene(nothing).features.why(feature_hide_emitters) ==
+          "no light transport is asked for");
 }

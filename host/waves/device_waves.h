@@ -7,12 +7,12 @@
 
 namespace parhelion {
 
-class Pipeline {
+class DeviceWaves {
 public:
     /// `device` must outlive it.
-    Pipeline(RenderDevice& device, const StageOptions& options);
+    DeviceWaves(RenderDevice& device, const StageOptions& options);
 
-    /// `scene` must outlive the pipeline and not change: a CPU reads its large arrays where they
+    /// `scene` must outlive the waves and not change: a CPU reads its large arrays where they
     /// are.
     void upload(const DeviceScene& scene);
     /// Film and streams, bound to the scene and the parameters.
@@ -20,8 +20,8 @@ public:
 
     std::vector<WaveStream>& streams() { return streams_; }
     std::vector<float> read_film();
-    /// Of all streams.
-    std::array<std::uint64_t, statistic_count> read_statistics();
+    /// STATISTICS and FAULTS of each segment of all streams.
+    std::vector<ulong> read_statistics();
     /// The first of each block of the film, in no order.
     std::vector<BadSample> read_bad_samples();
     std::vector<StageReport> stage_reports() const;

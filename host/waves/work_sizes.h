@@ -1,0 +1,45 @@
+// How the work of a render is split, and how large its buffers are.
+#pragma once
+
+#include "host/film/film_layout.h"
+
+#include <cstddef>
+
+namespace parhelion {
+
+/// How work is split. None of these changes a bit of the image.
+struct WorkSplit {
+    int pool_paths = 1 << 16; ///< paths in flight: the memory of a render, whatever its resolution
+    int segment_paths = 2048; ///< paths one work-item owns; made a multiple of 16
+    int work_group_size = 1;
+    int streams = 0; ///< waves under way at once, which share the pool; 0: what suits the device
+};
+
+/// Sizes that follow from film, samples and split, of one stream.
+struct WorkSizes {
+    int streams = 1;
+    int samples_per_wave = 1, blocks_per_wave = 1, path_capacity = 16;
+    int segments = 1, segment_size = 16, segment_stride = 32;
+    int work_group_size = 1;
+    FilmLayout film;
+
+    /// Floats from one channel of the results, or word of a state, to the next.
+    std::size_t result_stride() const { return odd_lines(path_capacity); }
+    std::size_t state_stride() const {
+        return odd_lines(static_cast<std::size_t>(segments) * segment_stride);
+    }
+};
+
+/// `split.streams` must be chosen. Throws InputError for more paths than a device counts.
+WorkSizes work_sizes(const FilmLayout& film, int samples, int lanes, const WorkSplit& split);
+
+#define BUFFER_COUNT(type, name) std::size_t name;
+/// Elements of the work buffers: those of one stream, and the film, which all streams share.
+struct BufferCounts {
+    WORK_BUFFERS(BUFFER_COUNT)
+};
+#undef BUFFER_COUNT
+
+BufferCounts buffer_counts(const WorkSizes& sizes);
+
+} // namespace parhelion
