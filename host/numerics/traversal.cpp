@@ -4,6 +4,7 @@
 #include "host/cl/source.h"
 #include "host/parallel.h"
 #include "host/twin/wave_memory.h"
+#include "host/waves/kernel_arguments.h"
 
 #include <sys/types.h> // ulong, as the kernels call it
 
@@ -132,7 +133,6 @@ struct Traversal::Work {
 /// What is asked of rays: a kernel, the state it starts from, and the answers in what it leaves.
 template<class Answer>
 struct Traversal::Question {
-    const char* kernel;
     Stage stage;
     Work (*state)(Rays, const Sizes&);
     std::vector<Answer> (Work::*read)(const Sizes&) const;
@@ -144,8 +144,10 @@ Traversal::Traversal(const RenderDevice& device, const ProgramOptions& options,
       streams_(compile(device, with_streams(options, true))), host_share_(host_share) {}
 
 void Traversal::upload(const Bvh& bvh, int root) {
-    nodes_ = Buffer<BvhNode>(d_.context, d_.queue, "nodes", bvh.nodes.data(), bvh.nodes.size());
-    leaves_ = Buffer<BvhLine>(d_.context, d_.queue, "leaves", bvh.leaves.data(), bvh.leaves.size());
+    buffers_.bvh_nodes =
+        Buffer<BvhNode>(d_.context, d_.queue, "nodes", bvh.nodes.data(), bvh.nodes.size());
+    buffers_.bvh_leaves =
+        Buffer<BvhLine>(d_.context, d_.queue, "leaves", bvh.leaves.data(), bvh.leaves.size());
     scene_.bvh = bvh;
     scene_.root = root;
     extent_ = bvh_extent(bvh, root);
@@ -162,7 +164,7 @@ std::vector<Answer> Traversal::answers(Rays rays, const Question<Answer>& q) {
     Sizes s(rays.size());
     auto ask = [&](const Program& program) {
         Work work = q.state(rays, s);
-        run_on_device(program, q.kernel, s, work);
+        run_on_device(program, q.stage, s, work);
         return (work.*q.read)(s);
     };
     std::vector<Answer> found = same_answers(ask(packets_), ask(streams_));
@@ -178,11 +180,11 @@ std::vector<Answer> Traversal::answers(Rays rays, const Question<Answer>& q) {
 }
 
 std::vector<TracedHit> Traversal::closest(Rays rays) {
-    return answers<TracedHit>(rays, {"intersect", Stage::intersect, Work::of_paths, &Work::hits});
+    return answers<TracedHit>(rays, {Stage::intersect, Work::of_paths, &Work::hits});
 }
 
 std::vector<bool> Traversal::occluded(Rays rays) {
-    return answers<bool>(rays, {"shadow", Stage::shadow, Work::of_shadow_rays, &Work::blocked});
+    return answers<bool>(rays, {Stage::shadow, Work::of_shadow_rays, &Work::blocked});
 }
 
 RenderParams Traversal::params(const Sizes& s) const {
@@ -210,32 +212,23 @@ void Traversal::run_on_host(Stage stage, const Sizes& s, Work& work) const {
     work.results = std::move(memory.results);
 }
 
-void Traversal::run_on_device(const Program& program, const char* name, const Sizes& s,
+void Traversal::run_on_device(const Program& program, Stage stage, const Sizes& s,
                               Work& work) const {
-    cl::Kernel kernel = program.kernel(name);
-    Buffer<float> path_state = device_copy(d_, "path_state", work.state),
-                  results = device_copy(d_, "results", work.results);
-    const Buffer<float>& shadow_state = path_state; // each kernel takes its own
-    Buffer<int> counts = device_copy(d_, "counts", s.counts());
-    Buffer<ulong> statistics =
+    WaveBuffers buffers; // empty where these kernels read nothing
+    Buffer<float>& state = stage == Stage::shadow ? buffers.shadow_state : buffers.path_state;
+    state = device_copy(d_, "state", work.state);
+    buffers.results = device_copy(d_, "results", work.results);
+    buffers.counts = device_copy(d_, "counts", s.counts());
+    buffers.statistics =
         device_copy(d_, "statistics", std::vector<ulong>(statistic_count * s.segments));
-    const Buffer<BvhNode>& bvh_nodes = nodes_;
-    const Buffer<BvhLine>& bvh_leaves = leaves_;
-    // Not read by these kernels.
-    Buffer<int> primitives, vertices, materials, lights, light_nodes, light_leaves, energy_tables,
-        filter_table, filter_values, bad_samples, film;
-    cl_uint argument = 0;
-#define SET_BUFFER(type, name) kernel.setArg(argument++, name.handle());
-    SCENE_BUFFERS(SET_BUFFER)
-    WORK_BUFFERS(SET_BUFFER)
-#undef SET_BUFFER
-    kernel.setArg(argument++, params(s));
-    kernel.setArg(argument++, WaveParams{});
-    kernel.setArg(argument++, 1);
+    cl::Kernel kernel = program.kernel(stage_names[static_cast<std::size_t>(stage)]);
+    bind_arguments(kernel, buffers_, buffers, Buffer<float>(), params(s));
+    kernel.setArg(wave_argument, WaveParams{});
+    kernel.setArg(depth_argument, 1);
     d_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(s.segments), cl::NDRange(1));
     d_.queue.finish();
-    work.state = host_copy(d_, path_state);
-    work.results = host_copy(d_, results);
+    work.state = host_copy(d_, state);
+    work.results = host_copy(d_, buffers.results);
     program.store(d_.cache);
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "host/bvh/bvh.h"
-#include "host/cl/buffer.h"
 #include "host/flatten/device_scene.h"
+#include "host/waves/buffers.h"
 #include "host/waves/render_device.h"
 #include "host/waves/stages.h"
 
@@ -63,8 +63,7 @@ private:
     struct Question;
     template<class Answer>
     std::vector<Answer> answers(Rays rays, const Question<Answer>& question);
-    void run_on_device(const Program& program, const char* kernel, const Sizes& s,
-                       Work& work) const;
+    void run_on_device(const Program& program, Stage stage, const Sizes& s, Work& work) const;
     void run_on_host(Stage stage, const Sizes& s, Work& work) const;
     RenderParams params(const Sizes& s) const;
 
@@ -72,9 +71,8 @@ private:
     Program packets_, streams_;
     std::size_t host_share_;
     HostAnswers host_answers_;
-    Buffer<BvhNode> nodes_;
-    Buffer<BvhLine> leaves_;
-    DeviceScene scene_; ///< the host's: a tree and nothing else
+    SceneBuffers buffers_; ///< its tree alone
+    DeviceScene scene_;    ///< the host's: a tree and nothing else
     float extent_ = 0;
 };
 
