@@ -47,9 +47,28 @@ std::vector<Way> kernels() {
     return list;
 }
 
+/// Each way's image against that of the run's own kernels, split as ever.
+Checks made_in_ways(StressRun& run, const std::string& name, const std::vector<Way>& ways) {
+    Scene scene = every_kind_scene();
+    Check bad = bad_samples_check(name), check = same_bits_check(name);
+    Image full = image_of(run, scene, bad);
+    for (std::size_t i = 0; i < ways.size(); i++) {
+        add_images(check, full, image_of(run, scene, bad, ways[i].options), ways[i].text);
+        run.done(static_cast<double>(i + 1) / static_cast<double>(ways.size()));
+    }
+    return {check, bad};
+}
+
+} // namespace
+
+Checks row_splitting(StressRun& run) { return made_in_ways(run, "split in other ways", splits()); }
+
+Checks row_kernels(StressRun& run) { return made_in_ways(run, "other kernels", kernels()); }
+
 /// With samples beyond the film's border and without, splatted and by filter sampling.
-Check cropped(StressRun& run, Scene scene, Check& bad) {
-    Check check = same_bits_check("cropped");
+Checks row_crops(StressRun& run) {
+    Scene scene = every_kind_scene();
+    Check bad = bad_samples_check("cropped"), check = same_bits_check("cropped");
     const int windows[][4] = {{0, 0, 40, 30}, {3, 5, 17, 11}, {39, 29, 1, 1}, {8, 0, 4, 30}};
     for (bool border : {false, true})
         for (FilterMethod method : {FilterMethod::splatting, FilterMethod::sampling}) {
@@ -62,28 +81,9 @@ Check cropped(StressRun& run, Scene scene, Check& bad) {
                 add_images(check, full, image_of(run, part, bad),
                            fmt::format("crop {},{},{},{}", x, y, width, height));
             }
+            run.done(border ? 1 : 0.5);
         }
-    return check;
-}
-
-} // namespace
-
-Checks row_splitting(StressRun& run) {
-    Scene scene = every_kind_scene();
-    Check bad = bad_samples_check("split images");
-    Image full = image_of(run, scene, bad);
-    Checks checks;
-    for (const auto& [name, ways] :
-         {std::pair{"split in other ways", splits()}, {"other kernels", kernels()}}) {
-        Check check = same_bits_check(name);
-        for (const Way& way : ways)
-            add_images(check, full, image_of(run, scene, bad, way.options), way.text);
-        checks.push_back(check);
-        run.done(0.4 * static_cast<double>(checks.size()));
-    }
-    checks.push_back(cropped(run, scene, bad));
-    checks.push_back(bad);
-    return checks;
+    return {check, bad};
 }
 
 } // namespace parhelion::stress

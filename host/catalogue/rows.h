@@ -27,7 +27,9 @@ namespace parhelion::stress {
     X(furnace, one, "Statistics", "No material returns more than it receives") \
     X(white_furnace, one, "Statistics", "Rough materials with energy compensation return what they receive") \
     X(shading_normals, one, "Images", "Coarse spheres with smooth normals: no light from below the true surface, no more than there is") \
-    X(splitting, one, "Images", "The image is the same bits however the work is done") \
+    X(splitting, one, "Images", "The image is the same bits however the work is split") \
+    X(kernels, one, "Images", "The image is the same bits whatever kernels make it") \
+    X(crops, one, "Images", "A crop has the bits of the whole image") \
     X(scale_and_move, one, "Images", "A scene scaled by a power of two or moved exactly gives the same bits") \
     X(scale_and_turn, one, "Images", "A scene of any other size, turned: the same means (Welch)") \
     X(grain_and_planet, one, "Images", "Grains of 1e-6 to 1e6 on a planet of 1e7: device against double precision") \

@@ -1,5 +1,6 @@
 // The image depends on the scene alone, to the bit: not on threads or what kernels can do besides.
-// Lanes, how work is split, and crops: row `splitting` of the catalogue.
+// How work is split, lanes, crops: rows `splitting`, `kernels`, `crops`
+// of the catalogue.
 #include "host/image/exr.h"
 #include "host/numerics/every_kind_scene.h"
 #include "host/numerics/image_figures.h"
