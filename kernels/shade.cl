@@ -6,8 +6,6 @@
 #include "device/shade_scatter.h"
 #include "device/shade_see.h"
 
-#define SCENE_VALUE(type, name) name,
-
 /// Reads: path state, scene. Writes: results (emission, alpha, AOVs at the first vertex), counts,
 /// path and shadow state. Pushes: a shadow ray for each vertex with light to receive, a path for
 /// each that goes on; both packed in place.
@@ -20,8 +18,7 @@ kernel void shade(KERNEL_PARAMETERS) {
     ShadeWork w = {{SCENE_BUFFERS(SCENE_VALUE)}, &params, results_of(results, params), depth};
     int next_path = base, next_shadow = base;
     for (int at = base; at < end; at += LANES) {
-        PathVertex v =
-            load_vertex(state_place(path_state, stride, at), end - at, primitives, vertices);
+        PathVertex v = load_vertex(state_place(path_state, stride, at), end - at, w.scene);
         see(w, v);
         Shading s = shading_at(w, v);
         if (HAS(aovs) && depth == 0) write_aovs(w, v, s.material);

@@ -19,12 +19,11 @@ struct Built {
     std::size_t embree_bytes;
 };
 
-Built build_once(const TriangleMesh& mesh, std::span<const PrimitiveRecord> primitives,
-                 int threads) {
+Built build_once(const TriangleMesh& mesh, const IndexedGeometry& geometry, int threads) {
     Built b{};
     {
         Bvh bvh;
-        bvh_append(bvh, primitives, &b.ours);
+        bvh_append(bvh, geometry, &b.ours);
     }
     {
         EmbreeScene usual(mesh, false, threads);
@@ -37,19 +36,20 @@ Built build_once(const TriangleMesh& mesh, std::span<const PrimitiveRecord> prim
 
 nlohmann::json measure_size(std::size_t triangles, int threads, int repeats) {
     TriangleMesh mesh = hills_and_rocks(triangles);
-    std::vector<PrimitiveRecord> primitives = primitive_records(mesh);
-    auto count = static_cast<double>(primitives.size());
+    IndexedGeometry geometry = indexed_geometry(mesh);
+    std::size_t triangles_made = geometry.primitives.size();
+    auto count = static_cast<double>(triangles_made);
     std::vector<double> ours, embree, robust;
-    Built built = build_once(mesh, primitives, threads); // warms up threads and memory
+    Built built = build_once(mesh, geometry, threads); // warms up threads and memory
     for (int i = 0; i < repeats; i++) {
-        built = build_once(mesh, primitives, threads);
+        built = build_once(mesh, geometry, threads);
         ours.push_back(built.ours.build_seconds);
         embree.push_back(built.embree_seconds);
         robust.push_back(built.robust_seconds);
     }
-    fmt::print(stderr, "  {:9} triangles: {:.3f} s, {:.2f} of Embree's time\n", primitives.size(),
+    fmt::print(stderr, "  {:9} triangles: {:.3f} s, {:.2f} of Embree's time\n", triangles_made,
                median(ours), median_ratio(ours, embree));
-    return {{"triangles", primitives.size()},
+    return {{"triangles", triangles_made},
             {"seconds", median(ours)},
             {"embree_seconds", median(embree)},
             {"embree_robust_seconds", median(robust)},

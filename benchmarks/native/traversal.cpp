@@ -65,8 +65,8 @@ struct World {
 
     World(TriangleScene s, int threads)
         : scene(std::move(s)), primitives(primitive_records(scene.mesh)),
-          root(bvh_append(bvh, primitives, &statistics)), usual(scene.mesh, false, threads),
-          robust(scene.mesh, true, threads) {}
+          root(bvh_append(bvh, indexed_geometry(scene.mesh), &statistics)),
+          usual(scene.mesh, false, threads), robust(scene.mesh, true, threads) {}
 };
 
 nlohmann::json measure_set(const RaySet& set, const World& world, OpenClTracer& ours,

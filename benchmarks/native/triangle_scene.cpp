@@ -186,11 +186,19 @@ std::vector<PrimitiveRecord> primitive_records(const TriangleMesh& mesh) {
         p.ax = a.x, p.ay = a.y, p.az = a.z;
         p.bx = b.x, p.by = b.y, p.bz = b.z;
         p.cx = c.x, p.cy = c.y, p.cz = c.z;
-        p.light = -1;
         p.flags = geometry_triangle;
-        p.index_in_shape = static_cast<int>(i);
     }
     return records;
+}
+
+IndexedGeometry indexed_geometry(const TriangleMesh& mesh) {
+    IndexedGeometry out;
+    for (const Point& v : mesh.vertices)
+        out.points.insert(out.points.end(), {v.x, v.y, v.z});
+    for (const Triangle& t : mesh.triangles)
+        out.primitives.push_back(
+            {3 * int(t.a), 3 * int(t.b), 3 * int(t.c), 0.f, geometry_triangle, 0, -1});
+    return out;
 }
 
 } // namespace parhelion::bench

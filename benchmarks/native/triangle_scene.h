@@ -1,6 +1,7 @@
 // Triangle scenes made by code: what the ray sets are traced through and the trees are built over.
 #pragma once
 
+#include "host/bvh/geometry.h"
 #include "kernels/shared/types.h"
 
 #include <cstddef>
@@ -49,5 +50,8 @@ TriangleScene landscape(std::size_t triangles);
 TriangleMesh hills_and_rocks(std::size_t triangles);
 
 std::vector<PrimitiveRecord> primitive_records(const TriangleMesh& mesh);
+
+/// The same as a scene stores it.
+IndexedGeometry indexed_geometry(const TriangleMesh& mesh);
 
 } // namespace parhelion::bench

@@ -20,14 +20,13 @@ namespace {
 /// The longest side of triangles that are not much larger than most: at most 2^9 times their mean,
 /// that of exponents, which a few large ones do not move.
 template<class NumberOf>
-float usual_side(std::span<const PrimitiveRecord> primitives, std::size_t count,
-                 const NumberOf& number_of) {
+float usual_side(const IndexedGeometry& geometry, std::size_t count, const NumberOf& number_of) {
     struct Sides {
         std::int64_t exponents = 0, triangles = 0;
         float longest = 0;
     };
     auto add = [&](Sides sum, std::size_t i) {
-        const PrimitiveRecord& p = primitives[std::size_t(number_of(i))];
+        PrimitiveRecord p = geometry.primitive(number_of(i));
         float side = longest_side(p);
         if (geometry_kind(p) != geometry_triangle || !(side > 0 && std::isfinite(side))) return sum;
         return Sides{sum.exponents + std::ilogb(side), sum.triangles + 1,
@@ -44,19 +43,19 @@ float usual_side(std::span<const PrimitiveRecord> primitives, std::size_t count,
 
 /// Of all primitives that can be hit.
 template<class NumberOf>
-LargeVector<Reference> make_references(std::span<const PrimitiveRecord> primitives,
-                                       std::size_t count, const NumberOf& number_of, float side) {
+LargeVector<Reference> make_references(const IndexedGeometry& geometry, std::size_t count,
+                                       const NumberOf& number_of, float side) {
     LargeVector<Reference> references(count);
     std::atomic<bool> all = true;
     parallel_for(count, [&](std::size_t i) {
         int number = number_of(i);
-        const PrimitiveRecord& primitive = primitives[std::size_t(number)];
+        PrimitiveRecord primitive = geometry.primitive(number);
         references[i] = make_reference(primitive, number, side);
         if (!can_be_hit(primitive)) all = false;
     });
     if (!all)
         std::erase_if(references, [&](const Reference& r) {
-            return !can_be_hit(primitives[std::size_t(r.primitive())]);
+            return !can_be_hit(geometry.primitive(r.primitive()));
         });
     return references;
 }
@@ -69,36 +68,36 @@ struct Built {
 
 /// Builds a tree and appends it whole, or, where it needs more stack than allowed and may be
 /// refused, not at all.
-bool append_tree(Bvh& bvh, std::span<const PrimitiveRecord> primitives, BinaryTree& tree,
-                 int stack_limit, bool may_refuse, Built& built) {
+bool append_tree(Bvh& bvh, const IndexedGeometry& geometry, BinaryTree& tree, int stack_limit,
+                 bool may_refuse, Built& built) {
     CollapsePlan plan = plan_collapse(tree);
-    WideTree wide = measure_wide_tree(tree, plan, primitives);
+    WideTree wide = measure_wide_tree(tree, plan, geometry);
     if (may_refuse && wide.extent.stack_entries > stack_limit) return false;
-    int root = append_wide_tree(bvh, tree, plan, wide, primitives);
+    int root = append_wide_tree(bvh, tree, plan, wide, geometry);
     built = {root, plan.sah_cost, wide.extent};
     return true;
 }
 
-Built append_references(Bvh& bvh, std::span<const PrimitiveRecord> primitives,
+Built append_references(Bvh& bvh, const IndexedGeometry& geometry,
                         LargeVector<Reference> references, int stack_limit) {
     if (references.empty()) return {append_empty_node(bvh), 0, {.nodes = 1, .depth = 1}};
     Built built;
     BinaryTree tree = build_binary_tree(std::move(references), SplitMethod::surface_area);
-    if (append_tree(bvh, primitives, tree, stack_limit, true, built)) return built;
+    if (append_tree(bvh, geometry, tree, stack_limit, true, built)) return built;
     tree = build_binary_tree(std::move(tree.references), SplitMethod::halves);
-    append_tree(bvh, primitives, tree, stack_limit, false, built);
+    append_tree(bvh, geometry, tree, stack_limit, false, built);
     return built;
 }
 
 template<class NumberOf>
-int append_timed(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::size_t count,
+int append_timed(Bvh& bvh, const IndexedGeometry& geometry, std::size_t count,
                  const NumberOf& number_of, BvhStatistics* statistics, int stack_limit) {
     auto start = std::chrono::steady_clock::now();
-    float side = usual_side(primitives, count, number_of);
+    float side = usual_side(geometry, count, number_of);
     bvh.side = std::max(bvh.side, side);
-    LargeVector<Reference> references = make_references(primitives, count, number_of, side);
+    LargeVector<Reference> references = make_references(geometry, count, number_of, side);
     std::size_t used = references.size();
-    Built built = append_references(bvh, primitives, std::move(references), stack_limit);
+    Built built = append_references(bvh, geometry, std::move(references), stack_limit);
     if (statistics) {
         BvhStatistics s;
         const WideExtent& extent = built.extent;
@@ -127,16 +126,17 @@ Box node_box(const BvhNode& node) {
 
 } // namespace
 
-int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::span<const int> subset,
+int bvh_append(Bvh& bvh, const IndexedGeometry& geometry, std::span<const int> subset,
                BvhStatistics* statistics, int stack_limit) {
     auto number_of = [subset](std::size_t i) { return subset[i]; };
-    return append_timed(bvh, primitives, subset.size(), number_of, statistics, stack_limit);
+    return append_timed(bvh, geometry, subset.size(), number_of, statistics, stack_limit);
 }
 
-int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, BvhStatistics* statistics,
+int bvh_append(Bvh& bvh, const IndexedGeometry& geometry, BvhStatistics* statistics,
                int stack_limit) {
     auto number_of = [](std::size_t i) { return int(i); };
-    return append_timed(bvh, primitives, primitives.size(), number_of, statistics, stack_limit);
+    return append_timed(bvh, geometry, geometry.primitives.size(), number_of, statistics,
+                        stack_limit);
 }
 
 float bvh_extent(const Bvh& bvh, int root) {

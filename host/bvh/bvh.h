@@ -2,6 +2,7 @@
 // (layout: BvhNode, BvhLeaf, BvhPatch).
 #pragma once
 
+#include "host/bvh/geometry.h"
 #include "host/large_vector.h"
 #include "kernels/shared/types.h"
 
@@ -32,14 +33,14 @@ struct BvhStatistics {
 /// >= 0 a node, < 0 a leaf (as in BvhNode). Triangles without area are left out: no ray hits them.
 /// An empty subset gives a node whose 16 children are empty. The result is the same bits for any
 /// number of threads. A tree that would need more than `stack_limit` stack entries is built again
-/// by halving, which needs at most 15 (log2(n) + 3). Coordinates are finite; at most 2^29 lines of
+/// by halving, which needs at most 15 (log2(n) + 3). Coordinates are finite; at most 2^28 lines of
 /// leaves in bvh.
-int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives, std::span<const int> subset,
+int bvh_append(Bvh& bvh, const IndexedGeometry& geometry, std::span<const int> subset,
                BvhStatistics* statistics = nullptr, int stack_limit = BVH_STACK);
 
 /// The same over all primitives.
-int bvh_append(Bvh& bvh, std::span<const PrimitiveRecord> primitives,
-               BvhStatistics* statistics = nullptr, int stack_limit = BVH_STACK);
+int bvh_append(Bvh& bvh, const IndexedGeometry& geometry, BvhStatistics* statistics = nullptr,
+               int stack_limit = BVH_STACK);
 
 /// The largest side of a box around all triangles below `root`.
 float bvh_extent(const Bvh& bvh, int root);

@@ -1,6 +1,7 @@
 // Packing of up to 16 primitives into the lines of a leaf.
 #include "host/bvh/leaf_layout.h"
 
+#include "host/bvh/leaf_reader.h"
 #include "kernels/shared/features.h"
 
 #include <algorithm>
@@ -13,13 +14,12 @@
 namespace parhelion {
 namespace {
 
-static_assert(BVH_PATCH == geometry_kind_count && BVH_PATCH <= PRIMITIVE_KIND_MASK);
+static_assert(geometry_kind_count <= BVH_PATCH && geometry_kind_count <= PRIMITIVE_KIND_MASK + 1);
 
 constexpr int lines_of(std::size_t bytes) { return int(bytes / sizeof(BvhLine)); }
 
-const PrimitiveRecord& primitive_of(const Reference& reference,
-                                    std::span<const PrimitiveRecord> primitives) {
-    return primitives[std::size_t(reference.primitive())];
+PrimitiveRecord primitive_of(const Reference& reference, const IndexedGeometry& geometry) {
+    return geometry.primitive(reference.primitive());
 }
 
 /// Corners in the order in which they are first met; those with the same bits are one.
@@ -58,16 +58,15 @@ std::optional<std::uint32_t> corner_bits(const PrimitiveRecord& p, CornerTable& 
 
 /// Bit k says whether word k of a leaf has BVH_SIZE_BIT: the upper half of a float above all sides
 /// of the triangles.
-std::uint32_t size_bits(std::span<const Reference> references,
-                        std::span<const PrimitiveRecord> primitives) {
+std::uint32_t size_bits(std::span<const Reference> references, const IndexedGeometry& geometry) {
     float longest = 0;
     for (const Reference& r : references)
-        longest = std::max(longest, longest_side(primitive_of(r, primitives)));
+        longest = std::max(longest, longest_side(primitive_of(r, geometry)));
     return (std::bit_cast<std::uint32_t>(longest) >> 16) + 1;
 }
 
 std::optional<BvhPatch> make_patch(std::span<const Reference> references,
-                                   std::span<const PrimitiveRecord> primitives) {
+                                   const IndexedGeometry& geometry) {
     if (references.front().kind() != geometry_triangle) return std::nullopt;
     auto [lowest, highest] =
         std::minmax_element(references.begin(), references.end(),
@@ -77,11 +76,11 @@ std::optional<BvhPatch> make_patch(std::span<const Reference> references,
     if (highest->primitive() - first >= 1 << BVH_PATCH_NUMBERS) return std::nullopt;
     BvhPatch patch{};
     CornerTable corners;
-    std::uint32_t size = size_bits(references, primitives);
+    std::uint32_t size = size_bits(references, geometry);
     for (std::size_t k = 0; k < BVH_WIDTH; k++) {
         std::uint32_t word = (base >> k & 1) << 31 | (size >> k & 1) << BVH_SIZE_BIT;
         if (k < references.size()) {
-            auto bits = corner_bits(primitive_of(references[k], primitives), corners);
+            auto bits = corner_bits(primitive_of(references[k], geometry), corners);
             if (!bits) return std::nullopt;
             word |= *bits | std::uint32_t(references[k].primitive() - first) << BVH_PATCH_CORNERS;
         }
@@ -96,20 +95,19 @@ std::array<float, 9> leaf_column(const PrimitiveRecord& p) {
     return {p.ax, p.ay, p.az, p.bx, p.by, p.bz, p.cx, p.cy, p.cz};
 }
 
-BvhLeaf make_leaf(std::span<const Reference> references,
-                  std::span<const PrimitiveRecord> primitives) {
+BvhLeaf make_leaf(std::span<const Reference> references, const IndexedGeometry& geometry) {
     BvhLeaf leaf{};
     bool triangles = references.front().kind() == geometry_triangle;
     if (triangles)
         std::fill_n(leaf.rows[0], 9 * BVH_WIDTH, std::numeric_limits<float>::quiet_NaN());
-    std::uint32_t size = triangles ? size_bits(references, primitives) : 0;
+    std::uint32_t size = triangles ? size_bits(references, geometry) : 0;
     for (std::size_t i = 0; i < BVH_WIDTH; i++) {
         int bit = int(size >> i & 1) << BVH_SIZE_BIT;
         if (i >= references.size()) {
             leaf.primitive[i] = std::numeric_limits<int>::min() | bit;
             continue;
         }
-        const PrimitiveRecord& primitive = primitive_of(references[i], primitives);
+        PrimitiveRecord primitive = primitive_of(references[i], geometry);
         std::array<float, 9> column = leaf_column(primitive);
         for (std::size_t row = 0; row < column.size(); row++)
             leaf.rows[row][i] = column[row];
@@ -122,53 +120,33 @@ BvhLeaf make_leaf(std::span<const Reference> references,
 template<class Leaf>
 int put(Bvh& bvh, int line, const Leaf& leaf, int form) {
     std::memcpy(static_cast<void*>(&bvh.leaves[std::size_t(line)]), &leaf, sizeof leaf);
-    return ~((line << 2) | form);
-}
-
-template<class Leaf>
-Leaf get(const Bvh& bvh, int child) {
-    Leaf leaf;
-    std::memcpy(&leaf, static_cast<const void*>(&bvh.leaves[std::size_t(~child >> 2)]),
-                sizeof leaf);
-    return leaf;
-}
-
-Box around(const Box& box, Float4 p) { return box_union(box, {p, p}); }
-
-Box patch_box(const BvhPatch& patch) {
-    Box box = empty_box();
-    for (int word : patch.triangle)
-        for (int corner = 0; corner < 3 && word << (32 - BVH_PATCH_CORNERS) != 0; corner++) {
-            int k = (word >> (4 * corner)) & 15;
-            box = around(box, Float4{patch.corner[0][k], patch.corner[1][k], patch.corner[2][k]});
-        }
-    return box;
-}
-
-Box rows_box(const BvhLeaf& leaf) {
-    Box box = empty_box();
-    for (std::size_t k = 0; k < BVH_WIDTH; k++)
-        for (std::size_t row = 0; row < 9 && leaf.primitive[k] >= 0; row += 3)
-            box = around(box,
-                         Float4{leaf.rows[row][k], leaf.rows[row + 1][k], leaf.rows[row + 2][k]});
-    return box;
+    return BVH_LEAF_CODE(line, form);
 }
 
 } // namespace
 
-int leaf_lines(std::span<const Reference> references, std::span<const PrimitiveRecord> primitives) {
-    return lines_of(make_patch(references, primitives) ? sizeof(BvhPatch) : sizeof(BvhLeaf));
+int leaf_lines(std::span<const Reference> references, const IndexedGeometry& geometry) {
+    return lines_of(make_patch(references, geometry) ? sizeof(BvhPatch) : sizeof(BvhLeaf));
 }
 
 int write_leaf(Bvh& bvh, int line, std::span<const Reference> references,
-               std::span<const PrimitiveRecord> primitives) {
-    if (auto patch = make_patch(references, primitives)) return put(bvh, line, *patch, BVH_PATCH);
-    return put(bvh, line, make_leaf(references, primitives), references.front().kind());
+               const IndexedGeometry& geometry) {
+    if (auto patch = make_patch(references, geometry)) return put(bvh, line, *patch, BVH_PATCH);
+    return put(bvh, line, make_leaf(references, geometry), references.front().kind());
 }
 
 Box leaf_box(const Bvh& bvh, int child) {
-    if ((~child & 3) == BVH_PATCH) return patch_box(get<BvhPatch>(bvh, child));
-    return rows_box(get<BvhLeaf>(bvh, child));
+    LeafReader leaf(&bvh.leaves[std::size_t(BVH_LEAF_LINE(child))], child);
+    Box box = empty_box();
+    for (int k = 0; k < BVH_WIDTH; k++) {
+        if (leaf.primitive(k) < 0) continue;
+        std::array<float, 9> p = leaf.column(k);
+        for (std::size_t corner = 0; corner < 9; corner += 3) {
+            Float4 point{p[corner], p[corner + 1], p[corner + 2]};
+            box = box_union(box, {point, point});
+        }
+    }
+    return box;
 }
 
 } // namespace parhelion

@@ -10,11 +10,11 @@ namespace parhelion {
 
 /// Lines that a leaf over these references, all of one kind, takes: those of a BvhPatch where the
 /// triangles share corners enough and their numbers lie close together, else of a BvhLeaf.
-int leaf_lines(std::span<const Reference> references, std::span<const PrimitiveRecord> primitives);
+int leaf_lines(std::span<const Reference> references, const IndexedGeometry& geometry);
 
 /// Writes the leaf to the lines from `line` on; returns its child code.
 int write_leaf(Bvh& bvh, int line, std::span<const Reference> references,
-               std::span<const PrimitiveRecord> primitives);
+               const IndexedGeometry& geometry);
 
 /// Around the corners of all triangles of a leaf, given by its child code.
 Box leaf_box(const Bvh& bvh, int child);

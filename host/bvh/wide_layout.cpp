@@ -93,12 +93,11 @@ void for_node_children(const Collapsed& collapsed, const Children& children, con
 
 class Measurer {
 public:
-    Measurer(const Collapsed& collapsed, std::span<const PrimitiveRecord> primitives,
-             WideTree& wide)
-        : collapsed_(collapsed), primitives_(primitives), wide_(wide) {}
+    Measurer(const Collapsed& collapsed, const IndexedGeometry& geometry, WideTree& wide)
+        : collapsed_(collapsed), geometry_(geometry), wide_(wide) {}
 
     WideExtent measure_leaf(int binary) const {
-        int lines = leaf_lines(collapsed_.references(binary), primitives_);
+        int lines = leaf_lines(collapsed_.references(binary), geometry_);
         wide_.lines_below[std::size_t(binary)] = lines;
         return {.leaves = 1, .leaf_lines = lines};
     }
@@ -133,15 +132,15 @@ public:
 
 private:
     const Collapsed& collapsed_;
-    std::span<const PrimitiveRecord> primitives_;
+    const IndexedGeometry& geometry_;
     WideTree& wide_;
 };
 
 class Writer {
 public:
     Writer(Bvh& bvh, const Collapsed& collapsed, const WideTree& wide,
-           std::span<const PrimitiveRecord> primitives)
-        : bvh_(bvh), collapsed_(collapsed), wide_(wide), primitives_(primitives) {}
+           const IndexedGeometry& geometry)
+        : bvh_(bvh), collapsed_(collapsed), wide_(wide), geometry_(geometry) {}
 
     /// Writes the subtree of a wide node to the nodes and the lines from `node` and `line` on.
     void write_node(int binary, int node, int line) const {
@@ -171,34 +170,34 @@ public:
 
     /// Returns the child code.
     int write_leaf_at(int binary, int line) const {
-        return write_leaf(bvh_, line, collapsed_.references(binary), primitives_);
+        return write_leaf(bvh_, line, collapsed_.references(binary), geometry_);
     }
 
 private:
     Bvh& bvh_;
     const Collapsed& collapsed_;
     const WideTree& wide_;
-    std::span<const PrimitiveRecord> primitives_;
+    const IndexedGeometry& geometry_;
 };
 
 } // namespace
 
 WideTree measure_wide_tree(const BinaryTree& tree, const CollapsePlan& plan,
-                           std::span<const PrimitiveRecord> primitives) {
+                           const IndexedGeometry& geometry) {
     Collapsed collapsed(tree, plan);
     WideTree wide{{}, LargeVector<int>(tree.nodes.size()), LargeVector<int>(tree.nodes.size())};
-    Measurer measurer(collapsed, primitives, wide);
+    Measurer measurer(collapsed, geometry, wide);
     wide.extent = collapsed.is_leaf(0) ? measurer.measure_leaf(0) : measurer.measure(0);
     return wide;
 }
 
 int append_wide_tree(Bvh& bvh, const BinaryTree& tree, const CollapsePlan& plan,
-                     const WideTree& wide, std::span<const PrimitiveRecord> primitives) {
+                     const WideTree& wide, const IndexedGeometry& geometry) {
     int node = int(bvh.nodes.size()), line = int(bvh.leaves.size());
     bvh.nodes.resize(bvh.nodes.size() + std::size_t(wide.extent.nodes));
     bvh.leaves.resize(bvh.leaves.size() + std::size_t(wide.extent.leaf_lines));
     Collapsed collapsed(tree, plan);
-    Writer writer(bvh, collapsed, wide, primitives);
+    Writer writer(bvh, collapsed, wide, geometry);
     if (collapsed.is_leaf(0)) return writer.write_leaf_at(0, line);
     writer.write_node(0, node, line);
     return node;

@@ -22,11 +22,11 @@ struct WideTree {
 };
 
 WideTree measure_wide_tree(const BinaryTree& tree, const CollapsePlan& plan,
-                           std::span<const PrimitiveRecord> primitives);
+                           const IndexedGeometry& geometry);
 
 /// Appends nodes (each before its children) and leaves to bvh; returns the root as a child code.
 int append_wide_tree(Bvh& bvh, const BinaryTree& tree, const CollapsePlan& plan,
-                     const WideTree& wide, std::span<const PrimitiveRecord> primitives);
+                     const WideTree& wide, const IndexedGeometry& geometry);
 
 /// Appends a node whose 16 children are empty; returns its number.
 int append_empty_node(Bvh& bvh);

@@ -46,7 +46,7 @@ nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
             {"frame", to_json(flat.frame)},
             {"shapes", shapes},
             {"triangles", triangles},
-            {"primitives", flat.primitives.size()},
+            {"primitives", flat.geometry.primitives.size()},
             {"materials", materials},
             {"lights", lights},
             {"textures", 0},

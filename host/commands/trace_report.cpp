@@ -45,10 +45,12 @@ json material_json(const Scene& scene, const DeviceScene& flat, int row) {
 
 /// The shape that shines as a row of the light table; none: an emitter without a surface.
 json light_shape(const Scene& scene, const DeviceScene& flat, int row) {
-    auto shines = [row](const PrimitiveRecord& p) { return p.light == row; };
-    auto p = std::find_if(flat.primitives.begin(), flat.primitives.end(), shines);
-    if (p == flat.primitives.end()) return nullptr;
-    return shape_json(scene, p->shape, p->index_in_shape);
+    const auto& primitives = flat.geometry.primitives;
+    auto shines = [row](const IndexedPrimitiveRecord& p) { return p.light == row; };
+    auto p = std::find_if(primitives.begin(), primitives.end(), shines);
+    if (p == primitives.end()) return nullptr;
+    auto number = static_cast<int>(p - primitives.begin());
+    return shape_json(scene, flat.geometry.shape_of(number), flat.geometry.index_in_shape(number));
 }
 
 json light_json(const Scene& scene, const DeviceScene& flat, const TraceVertex& v) {

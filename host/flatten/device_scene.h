@@ -26,9 +26,7 @@ enum class LightChoice { importance, power };
 /// All places and lengths are in the units of `frame`, about its centre.
 struct DeviceScene {
     SceneFrame frame;
-    LargeVector<PrimitiveRecord> primitives;
-    LargeVector<VertexRecord>
-        vertices; ///< parallel to primitives; empty where no mesh has attributes that are read
+    IndexedGeometry geometry; ///< its shapes are those of the scene
     std::vector<MaterialRecord> materials;
     std::vector<LightRecord> lights;
     LightTree light_tree;             ///< empty where there is only one light

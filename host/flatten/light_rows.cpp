@@ -200,9 +200,10 @@ LightRow row_of(const ConstantEmitter& e, const Surroundings& s) {
     return row;
 }
 
-Box box_around(std::span<const PrimitiveRecord> primitives) {
+Box box_around(const IndexedGeometry& geometry) {
     Box box;
-    for (const PrimitiveRecord& p : primitives) {
+    for (std::size_t i = 0; i < geometry.primitives.size(); i++) {
+        PrimitiveRecord p = geometry.primitive(static_cast<int>(i));
         glm::dvec3 a(p.ax, p.ay, p.az), b(p.bx, p.by, p.bz), c(p.cx, p.cy, p.cz);
         switch (p.flags & PRIMITIVE_KIND_MASK) {
         case geometry_sphere:
@@ -262,7 +263,7 @@ std::vector<LightRow> light_rows(const Scene& scene, const DeviceScene& device,
         }
         first += static_cast<int>(primitive_count(shape));
     }
-    Surroundings around{device.frame, box_around(device.primitives), scene.file};
+    Surroundings around{device.frame, box_around(device.geometry), scene.file};
     for (const Emitter& emitter : scene.emitters)
         rows.push_back(std::visit([&](const auto& e) { return row_of(e, around); }, emitter));
     std::erase_if(rows, [](const LightRow& row) {

@@ -75,7 +75,7 @@ void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
     for (std::size_t i = 0; i < rows.size(); i++) {
         const LightRow& row = rows[i];
         for (int k = 0; row.first_primitive >= 0 && k < row.primitive_count; k++)
-            out.primitives[row.first_primitive + k].light = static_cast<int>(i);
+            out.geometry.primitives[row.first_primitive + k].light = static_cast<int>(i);
         if (row.kind == emitter_constant) out.constant_light = static_cast<int>(i);
         out.lights.push_back(light_record(row, power(row) / total));
     }

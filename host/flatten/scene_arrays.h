@@ -26,8 +26,9 @@ std::span<const typename Table::value_type> with_a_row(const Table& table) {
 inline SceneArrays scene_arrays(const DeviceScene& scene) {
     return {scene.bvh.nodes,
             scene.bvh.leaves,
-            with_a_row(scene.primitives),
-            scene.vertices,
+            with_a_row(scene.geometry.primitives),
+            scene.geometry.points,
+            with_a_row(scene.geometry.shapes),
             with_a_row(scene.materials),
             scene.lights,
             scene.light_tree.nodes,

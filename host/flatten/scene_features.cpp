@@ -66,41 +66,33 @@ bool is_opaque(const DeviceScene& records, int material) {
 }
 
 /// An opaque material is asked for what it does below its surface, too.
-bool has_back_material(const PrimitiveRecord& p, const DeviceScene& records) {
-    bool differs = p.material_front != p.material_back;
+bool has_back_material(const ShapeRecord& s, const DeviceScene& records) {
+    bool differs = s.material_front != s.material_back;
     // A front of null and a black back differ too, but a one-sided opaque front absorbs below by
     // itself.
-    bool black_back = p.material_back < 0 && is_opaque(records, p.material_front);
-    return (differs && !black_back) || is_opaque(records, p.material_back);
+    bool black_back = s.material_back < 0 && is_opaque(records, s.material_front);
+    return (differs && !black_back) || is_opaque(records, s.material_back);
 }
 
-/// The first primitives of all shapes that have some: those of one shape are alike but for where
-/// they are.
-std::vector<PrimitiveRecord> shape_examples(const Scene& scene, const DeviceScene& records) {
-    std::vector<PrimitiveRecord> examples;
-    std::size_t first = 0;
-    for (const Shape& shape : scene.shapes) {
-        std::size_t count = primitive_count(shape);
-        if (count > 0) examples.push_back(records.primitives[first]);
-        first += count;
-    }
-    return examples;
+/// Shapes that have primitives.
+std::vector<ShapeRecord> shapes_there(const Scene& scene, const DeviceScene& records) {
+    std::vector<ShapeRecord> there;
+    for (std::size_t i = 0; i < scene.shapes.size(); i++)
+        if (primitive_count(scene.shapes[i]) > 0) there.push_back(records.geometry.shapes[i]);
+    return there;
 }
 
 void decide_surfaces(const Scene& scene, const DeviceScene& records, FeatureDecisions& out) {
-    std::vector<PrimitiveRecord> shapes = shape_examples(scene, records);
+    std::vector<ShapeRecord> shapes = shapes_there(scene, records);
     decide_kinds(out, geometry_features, shapes, "shapes",
-                 [](const PrimitiveRecord& p) { return p.flags & PRIMITIVE_KIND_MASK; });
-    bool attributes = !records.vertices.empty();
-    auto read = [&](int flag) {
-        return [=](const PrimitiveRecord& p) { return attributes && (p.flags & flag); };
-    };
-    decide_by_count(out, feature_vertex_normals, shapes, "shapes", read(PRIMITIVE_NORMALS));
+                 [](const ShapeRecord& s) { return s.flags & PRIMITIVE_KIND_MASK; });
+    auto has = [](int flag) { return [flag](const ShapeRecord& s) { return s.flags & flag; }; };
+    decide_by_count(out, feature_vertex_normals, shapes, "shapes", has(PRIMITIVE_NORMALS));
     decide_by_count(out, feature_vertex_uvs, shapes, "shapes, where they are read",
-                    read(PRIMITIVE_UVS));
+                    has(PRIMITIVE_UVS));
     decide_by_count(out, feature_back_materials, shapes, "shapes",
-                    [&](const PrimitiveRecord& p) { return has_back_material(p, records); });
-    std::size_t primitives = records.primitives.size();
+                    [&](const ShapeRecord& s) { return has_back_material(s, records); });
+    std::size_t primitives = records.geometry.primitives.size();
     out.decide(feature_ray_streams, traced_in_streams(primitives),
                fmt::format("{} primitives; packets up to {}", primitives, primitives_for_packets));
 }
@@ -251,7 +243,8 @@ bool traced_in_streams(std::size_t primitives) { return primitives > primitives_
 
 FeatureSet neutral_features() {
     // Not anisotropy (turns the frame), nor what decides which light is counted, nor views and film
-    // layouts. Vertex records and the sky's light row exist only where they are needed.
+    // layouts. Normals, texture coordinates and the sky's light row exist only where they are
+    // needed.
     FeatureSet neutral{feature_back_materials, feature_ggx, feature_beckmann, feature_ray_streams};
     for (Feature f : material_features)
         neutral.set(f);

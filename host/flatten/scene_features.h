@@ -7,10 +7,9 @@
 
 namespace parhelion {
 
-/// Read off the finished records: of surfaces, materials and lights (vertices parallel to
-/// primitives, or none where nothing reads them), and off what integrator, sampler and film ask
-/// for. Depends on kinds only, never on values such as positions or colours. All but what follows
-/// from energy tables.
+/// Read off the finished records: of shapes, materials and lights, and off what integrator, sampler
+/// and film ask for. Depends on kinds only, never on values such as positions or colours. All but
+/// what follows from energy tables.
 FeatureDecisions scene_features(const Scene& scene, const DeviceScene& records);
 
 /// After energy tables are made, or not.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/bvh/bvh.h"
+#include "host/bvh/leaf_reader.h"
 #include "host/shared_maths.h"
 
 #include <algorithm>
@@ -110,37 +111,14 @@ struct Leaf {
     std::array<bool, BVH_WIDTH> flipped{}; ///< spheres and disks
 };
 
-inline Leaf read_patch(const BvhPatch& patch) {
-    Leaf leaf{geometry_triangle, sizeof(BvhPatch) / sizeof(BvhLine), {}, {}, {}};
-    int base = 0;
-    for (int k = 0; k < BVH_WIDTH; k++)
-        base |= (patch.triangle[k] < 0) << (k + BVH_PATCH_BASE);
-    for (std::size_t k = 0; k < BVH_WIDTH; k++) {
-        int word = patch.triangle[k] & 0x3fffffff;
-        bool absent = word % (1 << BVH_PATCH_CORNERS) == 0;
-        leaf.primitive[k] = absent ? -1 : base + (word >> BVH_PATCH_CORNERS);
-        for (std::size_t i = 0; i < 9 && !absent; i++)
-            leaf.column[k][i] = patch.corner[i % 3][(word >> (4 * (i / 3))) & 15];
-    }
-    return leaf;
-}
-
 inline Leaf read_leaf(const Bvh& bvh, int child) {
-    int line = ~child >> 2, form = ~child & 3;
-    const BvhLine* lines = &bvh.leaves.at(std::size_t(line));
-    if (form == BVH_PATCH) {
-        BvhPatch patch;
-        std::memcpy(&patch, lines, sizeof patch);
-        return read_patch(patch);
-    }
-    BvhLeaf stored;
-    std::memcpy(&stored, lines, sizeof stored);
-    Leaf leaf{form, sizeof(BvhLeaf) / sizeof(BvhLine), {}, {}, {}};
-    for (std::size_t k = 0; k < BVH_WIDTH; k++) {
-        leaf.primitive[k] = std::max(-1, BVH_LEAF_NUMBER(stored.primitive[k]));
-        leaf.flipped[k] = form != geometry_triangle && (stored.primitive[k] >> BVH_SIZE_BIT & 1);
-        for (std::size_t row = 0; row < 9; row++)
-            leaf.column[k][row] = stored.rows[row][k];
+    LeafReader reader(&bvh.leaves.at(std::size_t(BVH_LEAF_LINE(child))), child);
+    Leaf leaf{reader.kind(), reader.lines(), {}, {}, {}};
+    for (int k = 0; k < BVH_WIDTH; k++) {
+        auto at = std::size_t(k);
+        leaf.primitive[at] = reader.primitive(k);
+        leaf.column[at] = reader.column(k);
+        leaf.flipped[at] = reader.flipped(k);
     }
     return leaf;
 }

@@ -3,7 +3,7 @@
 //   r any float, also NaN and infinite   f any finite float       u [0, 1), the device's grid    c
 //   [0, 1] s 0 or 1e-4 .. 1e4                   a roughness 1e-4 .. 1    b 32 random bits d unit
 //   vector (3)    p point (3)     i interface (4)          m material (16)    l light (16) g
-//   primitive (16)     v vertex (16)   k camera (29)
+//   primitive (11)     v vertex (15)   k camera (29)
 #pragma once
 
 #include "host/numerics/measure.h"
@@ -71,8 +71,8 @@ private:
             return primitive();
         case 'v':
             values("dddfufufu");
-            words_[words_.size() - 1] = 0;
-            return values("f");
+            words_.back() = 0;
+            return;
         case 'k':
             return camera();
         default:
@@ -170,8 +170,6 @@ private:
         value('p');
         values(kind == geometry_sphere ? "dd" : "pp");
         value('s');
-        for (int k = 0; k < 5; k++)
-            put_int(random_.bits() % 1000);
         put_int(kind | (random_.bits() & (PRIMITIVE_FLIPPED | PRIMITIVE_NORMALS | PRIMITIVE_UVS)));
     }
 

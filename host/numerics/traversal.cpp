@@ -155,7 +155,7 @@ void Traversal::upload(const Bvh& bvh, int root) {
 
 void Traversal::upload(std::span<const PrimitiveRecord> primitives) {
     Bvh bvh;
-    int root = bvh_append(bvh, primitives);
+    int root = bvh_append(bvh, indexed_geometry(primitives));
     upload(bvh, root);
 }
 

@@ -89,13 +89,13 @@ DeviceScene flattened(const Scene& scene, LightChoice light_choice, Progress& pr
     report.sampler = sample_pattern_names[static_cast<std::size_t>(scene.sampler.pattern)];
     report.replicates = scene.sampler.replicates;
     report.frame = flat.frame;
-    report.primitives = flat.primitives.size();
+    report.primitives = flat.geometry.primitives.size();
     report.lights = flat.lights.size();
     report.device_scene_bytes = flat.bytes();
     report.features = flat.features.on().names();
     report.skipped_features = (FeatureSet::all() - flat.features.on()).names();
     report.feature_reasons = flat.features.reasons();
-    progress.finish(fmt::format("{} primitives", flat.primitives.size()));
+    progress.finish(fmt::format("{} primitives", flat.geometry.primitives.size()));
     for (const std::string& note : flat.notes)
         progress.note("note: " + note);
     return flat;

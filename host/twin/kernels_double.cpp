@@ -3,6 +3,7 @@
 //
 // Records are the device's, read exactly; random numbers are the same 24 bits. So a path takes the
 // way it takes in single precision, but where rounding decides.
+#include "host/bvh/leaf_reader.h"
 #include "host/twin/run_stage.h"
 #include "host/twin/work_item.h"
 
@@ -34,7 +35,7 @@ struct Kernels : WorkItem {
         for (int at = base; at < end; at++) {
             StatePlace place = state_place(path_state, params.state_stride, at);
             PlainHit hit =
-                plain_walk(bvh_nodes, bvh_leaves, primitives, root,
+                plain_walk({SCENE_BUFFERS(SCENE_VALUE)}, root,
                            packet_ray(ray_at_origin(place), ray_at_direction(place), sizes),
                            ray_at_t(place), ray_at_excluded(place), false);
             store_hit(place, hit.t, hit.b1, hit.b2, hit.primitive);
@@ -50,7 +51,7 @@ struct Kernels : WorkItem {
         for (int at = base; at < end; at++) {
             StatePlace place = state_place(shadow_state, params.state_stride, at);
             PlainHit hit =
-                plain_walk(bvh_nodes, bvh_leaves, primitives, params.root,
+                plain_walk({SCENE_BUFFERS(SCENE_VALUE)}, params.root,
                            packet_ray(ray_at_origin(place), ray_at_direction(place), sizes),
                            ray_at_t(place), ray_at_excluded(place), true);
             add_result3(results_of(results, params), result_r, shadow_at_slot(place),

@@ -10,24 +10,6 @@ struct PlainHit {
     Real rank;     // Intersection
 };
 
-/// The number of each primitive of a leaf.
-template<class Visit>
-void plain_leaf(const BvhLine* leaf, int form, Visit visit) {
-    if (form == BVH_PATCH) {
-        const auto* patch = reinterpret_cast<const BvhPatch*>(leaf);
-        uint base = 0;
-        for (int k = 0; k < BVH_WIDTH; k++)
-            base |= static_cast<uint>(patch->triangle[k] < 0) << k;
-        for (int word : patch->triangle)
-            if ((word & ((1 << BVH_PATCH_CORNERS) - 1)) != 0)
-                visit(static_cast<int>(base << BVH_PATCH_BASE) +
-                      ((word >> BVH_PATCH_CORNERS) & ((1 << BVH_PATCH_NUMBERS) - 1)));
-    } else {
-        for (int word : reinterpret_cast<const BvhLeaf*>(leaf)->primitive)
-            if (word >= 0) visit(BVH_LEAF_NUMBER(word));
-    }
-}
-
 Intersection plain_primitive(const PacketRay& r, const Primitive& p, Real t_max) {
     if (primitive_kind(p) == geometry_sphere)
         return ranked(intersect_sphere(sub3(r.origin, primitive_a(p)), r.direction, p.extra, t_max),
@@ -67,25 +49,28 @@ int plain_children(const BvhNode& node, const PacketRay& r, Real t_max, int* sta
 
 /// The hit of least rank in ]0, t_max], or with any_hit some hit; of two of one rank the lower
 /// number.
-PlainHit plain_walk(const BvhNode* nodes, const BvhLine* leaves, const PrimitiveRecord* primitives,
-                    int root, const PacketRay& r, Real t_max, int excluded, bool any_hit) {
+PlainHit plain_walk(const SceneTables& scene, int root, const PacketRay& r, Real t_max,
+                    int excluded, bool any_hit) {
     PlainHit hit = {t_max, 0, 0, -1, any_hit ? t_max : rank_of_end(t_max)};
     int stack[BVH_STACK];
     stack[0] = root;
     for (int top = 1; top > 0 && !(any_hit && hit.primitive >= 0);) {
         int code = stack[--top];
         if (code >= 0) {
-            top = plain_children(AT(const BvhNode, nodes, code), r, BOX_LIMIT(hit.rank, any_hit),
-                                 stack, top);
+            top = plain_children(AT(const BvhNode, scene.bvh_nodes, code), r,
+                                 BOX_LIMIT(hit.rank, any_hit), stack, top);
             continue;
         }
-        plain_leaf(IN_BUFFER(const BvhLine, leaves, ~code >> 2), ~code & 3, [&](int number) {
-            if (number == excluded) return;
-            Intersection i = plain_primitive(r, load_Primitive(primitives, number), hit.rank);
+        LeafReader leaf(IN_BUFFER(const BvhLine, scene.bvh_leaves, BVH_LEAF_LINE(code)), code);
+        for (int k = 0; k < BVH_WIDTH; k++) {
+            int number = leaf.primitive(k);
+            if (number < 0 || number == excluded) continue;
+            Primitive p = load_scene_primitive(scene, number).whole;
+            Intersection i = plain_primitive(r, p, hit.rank);
             bool first = i.rank == hit.rank && (hit.primitive < 0 || number < hit.primitive);
             if (i.hit && (any_hit || i.rank < hit.rank || first))
                 hit = {i.t, i.b1, i.b2, number, i.rank};
-        });
+        }
     }
     return hit;
 }

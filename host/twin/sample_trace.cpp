@@ -74,18 +74,18 @@ void read_hit(const OnePath& path, const DeviceScene& scene, TraceVertex& v) {
     int number = path.path_int(path_primitive);
     v.hit = number >= 0;
     if (!v.hit) return;
-    const PrimitiveRecord& p = scene.primitives[static_cast<std::size_t>(number)];
     v.t = path.path(path_t);
-    v.shape = p.shape, v.primitive = p.index_in_shape;
+    v.shape = scene.geometry.shape_of(number);
+    v.primitive = scene.geometry.index_in_shape(number);
 }
 
-void read_material(const DeviceScene& scene, int number, TraceVertex& v) {
+void read_material(const DeviceScene& scene, TraceVertex& v) {
     const auto& frame = v.notes.surface->frame;
     for (int axis = 0; axis < 3; axis++)
         v.wo[axis] = -dot(v.direction, frame[axis]);
-    const PrimitiveRecord& p = scene.primitives[static_cast<std::size_t>(number)];
+    const ShapeRecord& shape = scene.geometry.shapes[static_cast<std::size_t>(v.shape)];
     bool back = v.wo[2] < 0.f && (scene.features.has(feature_back_materials));
-    v.material = back ? p.material_back : p.material_front;
+    v.material = back ? shape.material_back : shape.material_front;
 }
 
 /// What next event estimation brings where it has cast no ray: as the kernel computes it.
@@ -175,12 +175,11 @@ void TracedWave::begin_vertex(int depth) {
 }
 
 void TracedWave::shade(TraceVertex& v) {
-    int number = path_.path_int(path_primitive);
     Triple before = path_.radiance();
     v.notes = shade_noted(launch_, v.bounce);
     v.emission = minus(path_.radiance(), before);
     if (v.hit) {
-        read_material(scene_, number, v);
+        read_material(scene_, v);
         v.shadow_ray = path_.has_shadow_ray();
         v.light = v.shadow_ray ? path_.shadow3(shadow_contribution) : unsent_light(v);
         v.goes_on = path_.lives();

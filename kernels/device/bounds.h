@@ -48,8 +48,11 @@ static __attribute__((noinline)) global void* inside(global const void* base, gl
     WORK_BUFFERS(CHECK_BUFFER)                                                                     \
     outside_report = (ulong)outside
 #define IN_BUFFER(T, base, index) ((T*)inside(base, (T*)(base) + (index), sizeof(T)))
+#define WORD_IN_BUFFER(T, base, word)                                                              \
+    ((T*)inside(base, (global const int*)(base) + (word), sizeof(T)))
 #else
 #define IN_BUFFER(T, base, index) ((T*)(base) + (index))
+#define WORD_IN_BUFFER(T, base, word) ((T*)((global const int*)(base) + (word)))
 #endif
 #else
 #define IN_BUFFER(T, base, index) ((T*)inside(base, (T*)(base) + (index), sizeof(T)))
@@ -63,5 +66,7 @@ static __attribute__((noinline)) global void* inside(global const void* base, gl
 /// Element `index` of type T from `base` on; base stands twice.
 #define AT(T, base, index) (*IN_BUFFER(T, base, index))
 #define PRIVATE_AT(T, base, index) ((base)[index])
+/// A T that begins with word `word` from base on.
+#define AT_WORD(T, base, word) (*WORD_IN_BUFFER(T, base, word))
 
 #endif

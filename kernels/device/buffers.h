@@ -12,7 +12,7 @@
 // element type, name: the scene, read only
 #define SCENE_BUFFERS(X)                                                                           \
     X(BvhNode, bvh_nodes) X(BvhLine, bvh_leaves)                                                   \
-    X(PrimitiveRecord, primitives) X(VertexRecord, vertices)                                       \
+    X(IndexedPrimitiveRecord, primitives) X(float, points) X(ShapeRecord, shapes)                  \
     X(MaterialRecord, materials) X(LightRecord, lights)                                            \
     X(LightNodeRecord, light_nodes) X(int, light_leaves) /* the leaf of each light */              \
     X(float, energy_tables)                                                                        \

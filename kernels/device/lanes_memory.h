@@ -1,5 +1,5 @@
 // Moving lanes between memory and registers: contiguous, packed (survivors only), scattered, and
-// 64-byte records.
+// records.
 #ifndef PARHELION_LANES_MEMORY_H
 #define PARHELION_LANES_MEMORY_H
 
@@ -16,6 +16,13 @@ typedef union {
     Int lanes;
     int at[LANES];
 } IntLanes;
+
+/// What is wanted of each lane by itself.
+FN IntLanes one_by_one(Int v) {
+    IntLanes out;
+    out.lanes = v;
+    return out;
+}
 
 /// A table of 16 values and the places to look up; only the lowest 4 bits of each place count.
 #define TABLE_PARTS (16 / LANES)
@@ -78,9 +85,21 @@ PACKED_STORE(store_packed_int, global, AT, int, Int, IntLanes, COMPRESS_INT)
 PACKED_STORE(store_packed_private, , PRIVATE_AT, Scalar, Real, RealLanes, COMPRESS_REAL)
 PACKED_STORE(store_packed_private_int, , PRIVATE_AT, int, Int, IntLanes, COMPRESS_INT)
 
+/// Up to 16 words, in each lane those of its row.
+typedef struct {
+    Real word[16];
+} Record;
+
 #if LANES == 1
 // -------------------------------------------------------------------------------------------------
 // one lane
+/// `words` words of floats from each lane's own on.
+FN Record load_record(global const float* records, IntLanes first, int words) {
+    Record r;
+    for (int k = 0; k < words; k++)
+        r.word[k] = AT(global const float, records, first.at[0] + k);
+    return r;
+}
 FN Real gather(global const float* p, Int index) { return AT(global const float, p, index); }
 #ifdef PARHELION_REAL_IS_DOUBLE
 FN Real gather(const Scalar* p, Int index) { return AT(const Scalar, p, index); }
@@ -158,64 +177,68 @@ FN void scatter_add3(global float* p, long stride, Int index, vec3 v, uint bits)
     }
 }
 
+#ifdef __clang__
+// Loads of 16 bytes and 4 x 4 transposes in registers: cheaper than gathers, and than loads of 64
+// and 16 x 16.
+#define QUADS
+typedef float4 Quad __attribute__((aligned(4)));
+#if LANES == 16
+#define OF_ALL_ROWS(a, b, c, d)                                                                    \
+    a, b, c, d, a + 4, b + 4, c + 4, d + 4, a + 8, b + 8, c + 8, d + 8, a + 12, b + 12, c + 12,    \
+        d + 12
+#define EVERY_FOURTH(row, k) (Real)(row[k], row[k + 4], row[k + 8], row[k + 12])
+#else
+#define OF_ALL_ROWS(a, b, c, d) a, b, c, d, a + 4, b + 4, c + 4, d + 4
+#define EVERY_FOURTH(row, k) (Real)(row[k], row[k + 4])
+#endif
+#define MERGE(x, y, a, b, c, d) __builtin_shufflevector(x, y, OF_ALL_ROWS(a, b, c, d))
+#define PAIRS_LOW(x, y) MERGE(x, y, 0, LANES, 1, LANES + 1)
+#define PAIRS_HIGH(x, y) MERGE(x, y, 2, LANES + 2, 3, LANES + 3)
+#define QUADS_LOW(x, y) MERGE(x, y, 0, 1, LANES, LANES + 1)
+#define QUADS_HIGH(x, y) MERGE(x, y, 2, 3, LANES + 2, LANES + 3)
+
+/// Four words of each lane's own.
 typedef struct {
-    Real word[16];
-} Record;
+    float4 row[LANES];
+} Quads;
 
-#if LANES == 16 && defined(__clang__)
-// 16 aligned loads and a 16 x 16 transpose in registers: cheaper than 16 gathers.
-#define MERGE(x, y, a, b, c, d, e, f, g, h)                                                        \
-    __builtin_shufflevector(x, y, a, a + 16, b, b + 16, c, c + 16, d, d + 16, e, e + 16, f,        \
-                            f + 16, g, g + 16, h, h + 16)
-#define PAIRS_LOW(x, y) MERGE(x, y, 0, 1, 4, 5, 8, 9, 12, 13)
-#define PAIRS_HIGH(x, y) MERGE(x, y, 2, 3, 6, 7, 10, 11, 14, 15)
-#define QUADS_LOW(x, y)                                                                            \
-    __builtin_shufflevector(x, y, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29)
-#define QUADS_HIGH(x, y)                                                                           \
-    __builtin_shufflevector(x, y, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)
-#define OCTETS_LOW(x, y)                                                                           \
-    __builtin_shufflevector(x, y, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27)
-#define OCTETS_HIGH(x, y)                                                                          \
-    __builtin_shufflevector(x, y, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31)
+/// Where words `quad` of a record of so many begin that are read together: the last four of it are
+/// the last. Of three words one more is read, behind them.
+FN int quad_begin(int quad, int words) {
+    return 4 * quad + 4 <= words || quad == 0 ? 4 * quad : words - 4;
+}
 
-FN Record load_record(global const float* records, Int index) {
-    global const float16* rows = (global const float16*)records;
-    IntLanes i;
-    i.lanes = index;
-    float16 a[16], b[16];
-#pragma unroll
-    for (int k = 0; k < 16; k++)
-        a[k] = AT(global const float16, rows, i.at[k]);
-#pragma unroll
-    for (int k = 0; k < 16; k += 2) {
-        b[k] = PAIRS_LOW(a[k], a[k + 1]);
-        b[k + 1] = PAIRS_HIGH(a[k], a[k + 1]);
-    }
-    // a[4g + c]: words c, c + 4, c + 8, c + 12 of rows 4g .. 4g + 3
-#pragma unroll
-    for (int k = 0; k < 16; k += 4) {
-        a[k] = QUADS_LOW(b[k], b[k + 2]);
-        a[k + 1] = QUADS_HIGH(b[k], b[k + 2]);
-        a[k + 2] = QUADS_LOW(b[k + 1], b[k + 3]);
-        a[k + 3] = QUADS_HIGH(b[k + 1], b[k + 3]);
-    }
+FN Record with_quads(Record r, int at, Quads q) {
+    Real a = EVERY_FOURTH(q.row, 0), b = EVERY_FOURTH(q.row, 1), c = EVERY_FOURTH(q.row, 2),
+         d = EVERY_FOURTH(q.row, 3);
+    Real ab = PAIRS_LOW(a, b), cd = PAIRS_LOW(c, d);
+    r.word[at] = QUADS_LOW(ab, cd);
+    r.word[at + 1] = QUADS_HIGH(ab, cd);
+    ab = PAIRS_HIGH(a, b), cd = PAIRS_HIGH(c, d);
+    r.word[at + 2] = QUADS_LOW(ab, cd);
+    r.word[at + 3] = QUADS_HIGH(ab, cd);
+    return r;
+}
+
+/// `words` words from each lane's own on.
+FN Record load_record(global const float* records, IntLanes first, int words) {
     Record r;
 #pragma unroll
-    for (int c = 0; c < 4; c++) {
-        float16 p = OCTETS_LOW(a[c], a[4 + c]), q = OCTETS_HIGH(a[c], a[4 + c]);
-        float16 u = OCTETS_LOW(a[8 + c], a[12 + c]), v = OCTETS_HIGH(a[8 + c], a[12 + c]);
-        r.word[c] = OCTETS_LOW(p, u);
-        r.word[c + 8] = OCTETS_HIGH(p, u);
-        r.word[c + 4] = OCTETS_LOW(q, v);
-        r.word[c + 12] = OCTETS_HIGH(q, v);
+    for (int quad = 0; quad < (words + 3) / 4; quad++) {
+        int at = quad_begin(quad, words);
+        Quads q;
+#pragma unroll
+        for (int k = 0; k < LANES; k++)
+            q.row[k] = AT_WORD(global const Quad, records + at, (ulong)(uint)first.at[k]);
+        r = with_quads(r, at, q);
     }
     return r;
 }
 #else
-FN Record load_record(global const float* records, Int index) {
+FN Record load_record(global const float* records, IntLanes first, int words) {
     Record r;
-    for (int k = 0; k < 16; k++)
-        r.word[k] = gather(records + k, index * 16);
+    for (int k = 0; k < words; k++)
+        r.word[k] = gather(records + k, first.lanes);
     return r;
 }
 #endif
@@ -224,7 +247,7 @@ FN Record load_record(global const float* records, Int index) {
 // The fields of a record by name, from the lists in types.h.
 #if LANES == 1
 #define RECORD_FIELD(type, name) s.name = record->name;
-#define LOADER(Struct, FIELDS)                                                                     \
+#define LOADER(Struct, FIELDS, words)                                                              \
     FN Struct load_##Struct(global const Struct##Record* records, Int index) {                     \
         global const Struct##Record* record =                                                      \
             IN_BUFFER(global const Struct##Record, records, index);                                \
@@ -237,10 +260,11 @@ FN Record load_record(global const float* records, Int index) {
 #define WORD_int(w) asInt(w)
 #define RECORD_FIELD(type, name)                                                                   \
     s.name = WORD_##type(record.word[__builtin_offsetof(Stored, name) / sizeof(int)]);
-#define LOADER(Struct, FIELDS)                                                                     \
+#define LOADER(Struct, FIELDS, words)                                                              \
     FN Struct load_##Struct(global const Struct##Record* records, Int index) {                     \
         typedef Struct##Record Stored;                                                             \
-        Record record = load_record((global const float*)records, index);                          \
+        Record record =                                                                            \
+            load_record((global const float*)records, one_by_one(index * (words)), words);         \
         Struct s;                                                                                  \
         FIELDS(RECORD_FIELD)                                                                       \
         return s;                                                                                  \

@@ -3,6 +3,7 @@
 #define PARHELION_PATH_VERTEX_H
 
 #include "device/results.h"
+#include "device/scene_tables.h"
 #include "device/state.h"
 
 typedef struct {
@@ -10,19 +11,17 @@ typedef struct {
     Mask active;  // lanes that hold a path
     Mask hit;     // of those, that have hit something
     Mask bad_hit; // where that is at no numbers: it counts as none
-    Primitive primitive;
+    ScenePrimitive primitive;
     SurfaceInteraction surface;
 } PathVertex;
 
-FN SurfaceInteraction surface_at(Primitive p, Path path, Mask hit,
-                                 global const VertexRecord* vertices) {
+FN SurfaceInteraction surface_at(ScenePrimitive primitive, Path path, Mask hit) {
+    Primitive p = primitive.whole;
     SurfaceInteraction s = surface_triangle(p, path.b1, path.b2);
     if (HAS(vertex_normals) || HAS(vertex_uvs)) {
         Mask has_attributes = (p.flags & (PRIMITIVE_NORMALS | PRIMITIVE_UVS)) != 0;
-        if (someLane(has_attributes & hit)) {
-            Vertex attributes = load_Vertex(vertices, sel(has_attributes, path.primitive, (Int)0));
-            s = surface_vertex_attributes(s, p, attributes, path.b1, path.b2);
-        }
+        if (someLane(has_attributes & hit))
+            s = surface_vertex_attributes(s, p, primitive.corners, path.b1, path.b2);
     }
     if (HAS(shape_sphere)) {
         Mask mine = primitive_kind(p) == geometry_sphere;
@@ -39,8 +38,7 @@ FN SurfaceInteraction surface_at(Primitive p, Path path, Mask hit,
 }
 
 /// The vertices that `left` paths are at, or a packet's first of them.
-FN PathVertex load_vertex(StatePlace place, int left, global const PrimitiveRecord* primitives,
-                          global const VertexRecord* vertices) {
+FN PathVertex load_vertex(StatePlace place, int left, SceneTables scene) {
     PathVertex v;
     v.path = load_path(place);
     v.active = active_lanes(left);
@@ -48,8 +46,8 @@ FN PathVertex load_vertex(StatePlace place, int left, global const PrimitiveReco
     // for what they hit.
     v.hit = v.active & (v.path.primitive >= 0);
     v.path.primitive = sel(v.hit, v.path.primitive, (Int)0);
-    v.primitive = load_Primitive(primitives, v.path.primitive);
-    v.surface = surface_at(v.primitive, v.path, v.hit, vertices);
+    v.primitive = load_scene_primitive(scene, v.path.primitive);
+    v.surface = surface_at(v.primitive, v.path, v.hit);
     v.bad_hit = v.hit & (nought3(v.surface.p) + nought3(v.surface.ns) != v.path.t * R(0.));
     v.hit = v.hit & !v.bad_hit;
     return v;

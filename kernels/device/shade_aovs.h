@@ -31,8 +31,10 @@ FN void write_aovs(ShadeWork w, PathVertex v, Material m) {
     write_aov1(w, v, aov_uv, 1, s.uv.y);
     Camera camera = camera_lanes(w.params->camera);
     write_aov1(w, v, aov_depth, 0, camera_distance(camera, v.path.origin, v.path.t));
-    write_aov1(w, v, aov_shape_index, 0, toReal(v.primitive.shape + 1));
-    write_aov1(w, v, aov_prim_index, 0, toReal(v.primitive.index_in_shape));
+    Int shape = PRIMITIVE_SHAPE(v.primitive.stored.shape),
+        first = shape_of(w.scene, v.primitive).first_primitive;
+    write_aov1(w, v, aov_shape_index, 0, toReal(shape + 1));
+    write_aov1(w, v, aov_prim_index, 0, toReal(v.path.primitive - first));
 }
 
 #endif

@@ -34,8 +34,9 @@ FN Shading shading_at(ShadeWork w, PathVertex v) {
     s.frame = surface_frame(shaded);
     NOTE(surface, shaded);
     s.wo = to_local(s.frame, neg3(v.path.direction));
-    Int front = v.primitive.material_front, row = front;
-    if (HAS(back_materials)) row = sel(s.wo.z < R(0.), v.primitive.material_back, row);
+    Int front = v.primitive.stored.material, row = front;
+    if (HAS(back_materials))
+        row = sel(s.wo.z < R(0.), shape_of(w.scene, v.primitive).material_back, row);
     s.lanes = v.hit & (row >= 0);
     row = sel(row >= 0, row, front);
     s.material = load_Material(w.scene.materials, sel(row >= 0, row, (Int)0));
@@ -65,7 +66,7 @@ FN Shading turned_to_viewer(ShadeWork w, PathVertex v, Shading s) {
         s.throughput =
             mul3(s.throughput, compensate_energy(w.scene.energy_tables, s.material, s.wo, s.lanes));
     s.clearance = surface_clearance(v.surface.error, v.surface.ng);
-    Mask round = primitive_kind(v.primitive) == geometry_sphere;
+    Mask round = primitive_kind(v.primitive.whole) == geometry_sphere;
     s.excluded = sel(round, (Int)(-1), v.path.primitive);
     s.number = sample_number(asUint(v.path.pixel), asUint(v.path.sample),
                              (Uint)(uint)w.params->seed, w.params->replicate_bits);

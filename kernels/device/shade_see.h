@@ -27,11 +27,11 @@ FN vec3 sky_emission(ShadeWork w, Path path, Mask hidden) {
 
 /// Radiance of the emitters the lanes hit, weighted against next event estimation.
 FN vec3 surface_emission(ShadeWork w, PathVertex v) {
-    Mask emits = v.hit & (v.primitive.light >= 0);
+    Mask emits = v.hit & (v.primitive.stored.light >= 0);
     vec3 emitted = splat3(R(0.));
     if (!someLane(emits)) return emitted;
     Int row = (Int)0;
-    if (HAS(several_lights)) row = sel(emits, v.primitive.light, row);
+    if (HAS(several_lights)) row = sel(emits, v.primitive.stored.light, row);
     Light light = load_Light(w.scene.lights, row);
     // Next event estimation has no part in what the camera or a mirror sees.
     Mask weighted = emits & finiteR(v.path.pdf);

@@ -3,11 +3,7 @@
 #define PARHELION_SHADE_WORK_H
 
 #include "device/results.h"
-
-#define SCENE_MEMBER(type, name) global const type* name;
-typedef struct {
-    SCENE_BUFFERS(SCENE_MEMBER)
-} SceneTables;
+#include "device/scene_tables.h"
 
 typedef struct {
     SceneTables scene;

@@ -181,8 +181,8 @@ FN void walk_alone(RayWalk* w, WalkStack* stack, global const BvhNode* nodes,
             next = walk_node(w, stack, IN_BUFFER(global const BvhNode, nodes, code), any_hit);
         } else {
             global const BvhLine* leaf = leaf_at(leaves, code);
-            leaf_hits(w, leaf, LEAF_FORM(code), any_hit, &hits);
-            if (walk_take(w, leaf, LEAF_FORM(code), &hits, any_hit)) return;
+            leaf_hits(w, leaf, BVH_LEAF_FORM(code), any_hit, &hits);
+            if (walk_take(w, leaf, BVH_LEAF_FORM(code), &hits, any_hit)) return;
         }
         code = next == WALK_ENDS ? walk_pop(w, stack, any_hit) : next;
     }

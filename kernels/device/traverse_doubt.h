@@ -3,7 +3,8 @@
 // all lanes.
 //
 // Functions of their own, which read the corners again: what is rarely needed takes no registers
-// from what is always.
+// from what is always. Whatever else decides about single hits, such as a mask that lets rays
+// through, has its place here: it makes a hit doubtful, and settles it.
 #ifndef PARHELION_TRAVERSE_DOUBT_H
 #define PARHELION_TRAVERSE_DOUBT_H
 

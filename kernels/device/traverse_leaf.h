@@ -4,10 +4,9 @@
 
 #define LANE_GROUPS (BVH_WIDTH / LANES)
 
-// Where a leaf's child code says that it is, and its form there.
-#define LEAF_FORM(code) (~(code)&3)
+/// Where a leaf's child code says that it is; its form there: BVH_LEAF_FORM.
 FN global const BvhLine* leaf_at(global const BvhLine* leaves, int code) {
-    return IN_BUFFER(global const BvhLine, leaves, ~code >> 2);
+    return IN_BUFFER(global const BvhLine, leaves, BVH_LEAF_LINE(code));
 }
 
 #define LEAF_ROW(row) LOAD_REAL(leaf->rows[row] + group * LANES)

@@ -159,8 +159,8 @@ FN PacketHit traverse_packet(global const BvhNode* nodes, global const BvhLine* 
             uint found = few_rays(nodes, leaves, code, &lanes, excluded, bits, any_hit, &hit);
             if (any_hit) open &= ~found;
         } else if (code < 0) {
-            Mask found = packet_leaf(leaf_at(leaves, code), LEAF_FORM(code), ray, &bounds, excluded,
-                                     lanesOf(bits), any_hit, &hit);
+            Mask found = packet_leaf(leaf_at(leaves, code), BVH_LEAF_FORM(code), ray, &bounds,
+                                     excluded, lanesOf(bits), any_hit, &hit);
             if (any_hit) {
                 hit.primitive = sel(found, (Int)0, hit.primitive);
                 open &= ~maskBits(found);

@@ -63,7 +63,7 @@ FN void stream_prefetch(global const BvhNode* nodes, global const BvhLine* leave
     PREFETCH(p + 64);
     PREFETCH(p + 128);
     PREFETCH(p + 192);
-    if (code < 0 && LEAF_FORM(code) == BVH_PATCH) return;
+    if (code < 0 && BVH_LEAF_FORM(code) == BVH_PATCH) return;
     PREFETCH(p + 256);
     PREFETCH(p + 320);
     PREFETCH(p + 384);
@@ -141,14 +141,14 @@ FN void traverse_stream(global const BvhNode* nodes, global const BvhLine* leave
         count = at.leaf;
         for (int k = 0; k < count; k++) {
             int i = s.at_leaf[k], code = s.code[i];
-            leaf_hits(&s.walk[i], leaf_at(leaves, code), LEAF_FORM(code), any_hit, &hits[k]);
+            leaf_hits(&s.walk[i], leaf_at(leaves, code), BVH_LEAF_FORM(code), any_hit, &hits[k]);
         }
         at.leaf = 0;
         for (int k = 0; k < count; k++) {
             int i = s.at_leaf[k];
             int code = s.code[i];
-            int over =
-                walk_take(&s.walk[i], leaf_at(leaves, code), LEAF_FORM(code), &hits[k], any_hit);
+            int over = walk_take(&s.walk[i], leaf_at(leaves, code), BVH_LEAF_FORM(code), &hits[k],
+                                 any_hit);
             code = over ? WALK_ENDS : walk_pop(&s.walk[i], &s.stack[i], any_hit);
             at = stream_send(&s, at, &rays, begin, i, code, root, nodes, leaves);
         }

@@ -1,8 +1,8 @@
 // Every struct that crosses the bus between host and device, each written once as a list of fields.
 //
-// A record is 64 bytes: 16 words of float or int, so that a wide device reads it with one aligned
-// load a lane. From the same list come the host's struct (XRecord), and the device's struct of
-// lanes (X, in records.h).
+// A record is up to 16 words of float or int, which a wide device reads four at a time in each lane
+// (device/lanes_memory.h). From the same list come the host's struct (XRecord), and the device's
+// struct of lanes (X, in records.h).
 #ifndef PARHELION_TYPES_H
 #define PARHELION_TYPES_H
 
@@ -19,6 +19,8 @@
 // clang-format off
 
 // ------------------------------------------------------------------------------------------------ geometry
+// A primitive as rays meet it and shading sees it; scenes do not store it, but what it is made of (below).
+//
 // kind      a            b         c         extra
 // triangle  vertex 0     vertex 1  vertex 2  1 / |cross(b - a, c - a)|, 0 where that has no length
 // sphere    centre       axis x    axis z    radius
@@ -28,23 +30,44 @@
     X(float, bx) X(float, by) X(float, bz)                                                         \
     X(float, cx) X(float, cy) X(float, cz)                                                         \
     X(float, extra)                                                                                \
-    X(int, material_front) X(int, material_back) /* -1: absorbs */                                 \
-    X(int, light)                                /* row of the light table, -1: does not emit */    \
-    X(int, shape) X(int, index_in_shape)                                                           \
-    X(int, flags)                                /* geometry kind | PRIMITIVE_* */
+    X(int, flags)                                /* its shape's */
 
 #define PRIMITIVE_KIND_MASK 3
 #define PRIMITIVE_FLIPPED 4  // the normal is reversed (sphere, disk)
-#define PRIMITIVE_NORMALS 8  // the vertex record holds normals
-#define PRIMITIVE_UVS 16     // the vertex record holds texture coordinates
+#define PRIMITIVE_NORMALS 8  // its points have normals
+#define PRIMITIVE_UVS 16     // its points have texture coordinates
 
 // Vertex attributes of a triangle: normals and texture coordinates of its three corners.
 #define VERTEX_FIELDS(X)                                                                           \
     X(float, n0x) X(float, n0y) X(float, n0z)                                                      \
     X(float, n1x) X(float, n1y) X(float, n1z)                                                      \
     X(float, n2x) X(float, n2y) X(float, n2z)                                                      \
-    X(float, u0) X(float, v0) X(float, u1) X(float, v1) X(float, u2) X(float, v2)                  \
-    X(float, unused)
+    X(float, u0) X(float, v0) X(float, u1) X(float, v1) X(float, u2) X(float, v2)
+
+// As scenes store them. A primitive: the first words of its points, `extra` as above, its shape's number and flags, and what nearly
+// every hit asks for, so that it need not look at the shape.
+#define INDEXED_PRIMITIVE_FIELDS(X)                                                                \
+    X(int, a) X(int, b) X(int, c) X(float, extra)                                                  \
+    X(int, shape)    /* number << PRIMITIVE_FLAG_BITS | flags */                                   \
+    X(int, material) /* the shape's front */                                                       \
+    X(int, light)    /* row of the light table, -1: does not emit */
+
+#define PRIMITIVE_FLAG_BITS 5
+#define PRIMITIVE_FLAGS(shape) ((shape) & ((1 << PRIMITIVE_FLAG_BITS) - 1))
+#define PRIMITIVE_SHAPE(shape) ((shape) >> PRIMITIVE_FLAG_BITS)
+
+// A point is a corner, centre, axis or edge: x, y, z; where some mesh of the scene has normals and kernels read them, those; likewise
+// texture coordinates.
+#define POINT_NORMAL 3
+#define POINT_UV(normals) (POINT_NORMAL + ((normals) ? 3 : 0))
+#define POINT_WORDS(normals, uvs) (POINT_UV(normals) + ((uvs) ? 2 : 0))
+
+// What all primitives of a shape have in common. There is room, for a transform's row say.
+#define SHAPE_FIELDS(X)                                                                            \
+    X(int, flags)                                /* geometry kind | PRIMITIVE_* */                  \
+    X(int, material_front) X(int, material_back) /* -1: absorbs */                                 \
+    X(int, first_primitive)                                                                        \
+    X(int, unused0) X(int, unused1) X(int, unused2) X(int, unused3)
 
 // -------------------------------------------------------------------------------------- materials and lights
 // Dielectrics keep their index in (er, eg, eb, kr, kg, kb): eta, 1/eta, and the high and low parts of eta^2 - 1 seen
@@ -86,14 +109,18 @@
     X(int, parent)                            /* -1: the root */                                    \
     X(int, unused0) X(int, unused1) X(int, unused2) X(int, unused3)
 
-// All records: the struct of lanes, its fields.
+// All that scenes store: the struct of lanes, its fields, how many they are.
 #define RECORDS(X)                                                                                 \
-    X(Primitive, PRIMITIVE_FIELDS) X(Vertex, VERTEX_FIELDS) X(Material, MATERIAL_FIELDS)           \
-    X(Light, LIGHT_FIELDS) X(LightNode, LIGHT_NODE_FIELDS)
-#define RECORD_DECLARE(Struct, FIELDS)                                                             \
+    X(IndexedPrimitive, INDEXED_PRIMITIVE_FIELDS, 7) X(Shape, SHAPE_FIELDS, 8)                     \
+    X(Material, MATERIAL_FIELDS, 16)                                                               \
+    X(Light, LIGHT_FIELDS, 16) X(LightNode, LIGHT_NODE_FIELDS, 16)
+// And what is made of that.
+#define MADE_OF_RECORDS(X) X(Primitive, PRIMITIVE_FIELDS, 11) X(Vertex, VERTEX_FIELDS, 15)
+#define RECORD_DECLARE(Struct, FIELDS, words)                                                      \
     typedef struct { FIELDS(FIELD_DECLARE) } Struct##Record;                                       \
-    LAYOUT(Struct##Record, 64);
+    LAYOUT(Struct##Record, 4 * (words));
 RECORDS(RECORD_DECLARE)
+MADE_OF_RECORDS(RECORD_DECLARE)
 
 // Sampling a reconstruction filter: one of its equally likely bins along one axis. It starts at x (pixels from the centre), ends
 // where the next one starts, and its samples have this weight (negative in a negative lobe).
@@ -110,8 +137,8 @@ LAYOUT(FilterBin, 8);
 #define BOX_MARGIN 1.9073486328125e-6f // 2^-19
 
 // Children's boxes as rows of 16: low x, high x, low y, high y, low z, high z. An absent child's box is empty
-// (low = +inf, high = -inf). child >= 0: a node; child < 0: ~((line << 2) | form), a leaf from that line of the leaves on, whose
-// form is BVH_PATCH or the geometry kind of a BvhLeaf.
+// (low = +inf, high = -inf). child >= 0: a node; child < 0: BVH_LEAF_CODE(line, form), a leaf from that line of the leaves on, whose
+// form is BVH_PATCH or the geometry kind of a BvhLeaf. There is room for more: instances, curves, triangles with masks.
 typedef struct {
     float bounds[6][BVH_WIDTH];
     int child[BVH_WIDTH];
@@ -145,7 +172,11 @@ typedef struct {
 } BvhPatch;
 LAYOUT(BvhPatch, 256);
 
-#define BVH_PATCH 3 // beside the geometry kinds 0 to 2
+#define BVH_FORM_BITS 3
+#define BVH_LEAF_CODE(line, form) (~(((line) << BVH_FORM_BITS) | (form)))
+#define BVH_LEAF_LINE(code) (~(code) >> BVH_FORM_BITS)
+#define BVH_LEAF_FORM(code) (~(code) & ((1 << BVH_FORM_BITS) - 1))
+#define BVH_PATCH 7 // geometry kinds count from 0
 #define BVH_PATCH_CORNERS 12
 #define BVH_PATCH_NUMBERS 18
 #define BVH_PATCH_BASE 13

@@ -57,7 +57,7 @@ FN Real mask_word(Mask m) { return sel(m, R(1.), R(0.)); }
 // Records from words, by the lists of types.h.
 #define IN_float(x) (x)
 #define IN_int(x) wordInt(x)
-#define RECORD_INPUT(Struct, FIELDS)                                                               \
+#define RECORD_INPUT(Struct, FIELDS, words)                                                        \
     FN Struct in_##Struct(ProbeIn i, int at) {                                                     \
         Struct s;                                                                                  \
         FIELDS(TAKE_FIELD)                                                                         \
@@ -65,6 +65,7 @@ FN Real mask_word(Mask m) { return sel(m, R(1.), R(0.)); }
     }
 #define TAKE_FIELD(type, name) s.name = IN_##type(i.w[at++]);
 RECORDS(RECORD_INPUT)
-RECORD_INPUT(Camera, CAMERA_FIELDS)
+MADE_OF_RECORDS(RECORD_INPUT)
+RECORD_INPUT(Camera, CAMERA_FIELDS, 29)
 
 // NOLINTEND(modernize-use-using, readability-identifier-naming)

@@ -80,20 +80,20 @@ FN ProbeOut out_surface(SurfaceInteraction s) {
     return put3(put3(o, 17, f.s), 20, f.t);
 }
 FN ProbeOut probe_surface_triangle(ProbeIn i) {
-    vec2 b = triangle_uniform(in2(i, 16));
+    vec2 b = triangle_uniform(in2(i, 11));
     return out_surface(surface_triangle(in_Primitive(i, 0), b.x, b.y));
 }
 FN ProbeOut probe_surface_vertex_attributes(ProbeIn i) {
-    vec2 b = triangle_uniform(in2(i, 32));
+    vec2 b = triangle_uniform(in2(i, 26));
     Primitive p = in_Primitive(i, 0);
     return out_surface(
-        surface_vertex_attributes(surface_triangle(p, b.x, b.y), p, in_Vertex(i, 16), b.x, b.y));
+        surface_vertex_attributes(surface_triangle(p, b.x, b.y), p, in_Vertex(i, 11), b.x, b.y));
 }
 FN ProbeOut probe_surface_sphere(ProbeIn i) {
-    return out_surface(surface_sphere(in_Primitive(i, 0), in3(i, 16)));
+    return out_surface(surface_sphere(in_Primitive(i, 0), in3(i, 11)));
 }
 FN ProbeOut probe_surface_disk(ProbeIn i) {
-    vec2 d = disk_uniform(in2(i, 16));
+    vec2 d = disk_uniform(in2(i, 11));
     return out_surface(surface_disk(in_Primitive(i, 0), d.x, d.y));
 }
 FN ProbeOut probe_spherical_triangle(ProbeIn i) {

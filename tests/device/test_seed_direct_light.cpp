@@ -3,6 +3,7 @@
 #include "host/flatten/camera_record.h"
 #include "host/render/path_tracer.h"
 #include "host/scene/load.h"
+#include "tests/support/single_primitives.h"
 #include "tests/support/traversal.h"
 
 #include "host/numerics/shapes.h"
@@ -122,6 +123,7 @@ TEST_CASE(
     RenderDevice device(choose_device(""));
     RenderResult result = render(scene, device, {}, quiet);
     DeviceScene flat = make_device_scene(scene);
+    std::vector<PrimitiveRecord> primitives = test::single_primitives(flat.geometry);
     CameraRecord record = camera_record(scene.camera, 20, 20, flat.frame);
     f32::Camera camera{};
 #define COPY_FIELD(type, name) camera.name = record.name;
@@ -136,20 +138,23 @@ TEST_CASE(
         auto ray = f32::camera_ray(camera, film, {0, 0});
         rays::Ray test_ray{{ray.origin.x, ray.origin.y, ray.origin.z},
                            {ray.direction.x, ray.direction.y, ray.direction.z}};
-        rays::Hit hit = rays::brute_force(flat.primitives, test_ray);
+        rays::Hit hit = rays::brute_force(primitives, test_ray);
         double expected[3] = {0, 0, 0};
         if (hit.primitive >= 0) {
             hits++;
-            const PrimitiveRecord& p = flat.primitives[static_cast<std::size_t>(hit.primitive)];
+            const PrimitiveRecord& p = primitives[static_cast<std::size_t>(hit.primitive)];
             rays::ReadyRay ready(test_ray);
             f32::Intersection i =
                 rays::intersect(geometry_triangle, rays::column_of(p), ready, INFINITY);
             // In double from here: the device's float arithmetic is allowed its roundings.
-            const VertexRecord& v = flat.vertices[static_cast<std::size_t>(hit.primitive)];
+            const IndexedPrimitiveRecord& corners =
+                flat.geometry.primitives[static_cast<std::size_t>(hit.primitive)];
+            auto normal = [&](int point) {
+                const float* n = &flat.geometry.points[static_cast<std::size_t>(point)] + 3;
+                return glm::dvec3(n[0], n[1], n[2]);
+            };
             double b1 = i.b1, b2 = i.b2, b0 = 1 - b1 - b2;
-            glm::dvec3 n = b0 * glm::dvec3(v.n0x, v.n0y, v.n0z) +
-                           b1 * glm::dvec3(v.n1x, v.n1y, v.n1z) +
-                           b2 * glm::dvec3(v.n2x, v.n2y, v.n2z);
+            glm::dvec3 n = b0 * normal(corners.a) + b1 * normal(corners.b) + b2 * normal(corners.c);
             if (!(p.flags & PRIMITIVE_NORMALS))
                 n = glm::cross(glm::dvec3(p.bx - p.ax, p.by - p.ay, p.bz - p.az),
                                glm::dvec3(p.cx - p.ax, p.cy - p.ay, p.cz - p.az));

@@ -72,7 +72,7 @@ struct Soup {
         : name(name), primitives(primitives), rays(rays_for(ray_count, 77)) {
         for (const rays::Ray& r : rays)
             truth.push_back(rays::brute_force(primitives, r));
-        root = bvh_append(bvh, primitives);
+        root = bvh_append(bvh, indexed_geometry(primitives));
     }
 };
 
@@ -119,7 +119,7 @@ TEST_CASE("A ray does not meet the primitive it leaves, nor anything beyond its 
     Primitives primitives = rays::repeated({rays::triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0})}, 2);
     primitives.push_back(rays::triangle({-1, -1, 1}, {1, -1, 1}, {0, 1, 1}));
     Bvh bvh;
-    int root = bvh_append(bvh, primitives);
+    int root = bvh_append(bvh, indexed_geometry(primitives));
     const float infinity = std::numeric_limits<float>::infinity();
     std::vector<TestRay> rays = {
         {{0, 0, -1}, {0, 0, 1}, infinity, -1}, {{0, 0, -1}, {0, 0, 1}, infinity, 0},

@@ -156,7 +156,7 @@ TEST_CASE("Traversal on the device agrees with Embree on the bunny, but for ties
     TestDevice d;
     Traversal traversal(d, variants[0]);
     Bvh bvh;
-    int root = bvh_append(bvh, primitives);
+    int root = bvh_append(bvh, indexed_geometry(primitives));
     traversal.upload(bvh, root);
     std::vector<TestHit> hits = traversal.closest(rays);
     Agreement a;

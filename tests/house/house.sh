@@ -97,7 +97,7 @@ host_rooms=(
     "flatten scene bvh"
     "film scene image flatten"
     "waves scene cl flatten film"
-    "twin scene flatten film waves"
+    "twin scene bvh flatten film waves"
     "render scene image flatten film waves twin"
     "numerics scene image cl bvh flatten film waves twin render"
     "commands scene image cl bvh flatten film waves twin render"

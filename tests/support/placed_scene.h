@@ -37,8 +37,9 @@ inline bool same_on_device(const Scene& a, const Scene& b, std::string& differs)
         if (!same) differs += std::string(" ") + what;
     };
     check(std::memcmp(&params_x, &params_y, sizeof params_x) == 0, "parameters");
-    check(same_bytes(x.primitives, y.primitives), "primitives");
-    check(same_bytes(x.vertices, y.vertices), "vertices");
+    check(same_bytes(x.geometry.primitives, y.geometry.primitives), "primitives");
+    check(same_bytes(x.geometry.points, y.geometry.points), "points");
+    check(same_bytes(x.geometry.shapes, y.geometry.shapes), "shapes");
     check(same_bytes(x.materials, y.materials), "materials");
     check(same_bytes(x.lights, y.lights), "lights");
     check(same_bytes(x.light_tree.nodes, y.light_tree.nodes), "light nodes");

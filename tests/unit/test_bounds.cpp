@@ -17,8 +17,9 @@ namespace {
 // One for each buffer of a scene: what takes its rows away.
 void empty_bvh_nodes(DeviceScene& s) { s.bvh.nodes.clear(); }
 void empty_bvh_leaves(DeviceScene& s) { s.bvh.leaves.clear(); }
-void empty_primitives(DeviceScene& s) { s.primitives.resize(1); }
-void empty_vertices(DeviceScene& s) { s.vertices.clear(); }
+void empty_primitives(DeviceScene& s) { s.geometry.primitives.resize(1); }
+void empty_points(DeviceScene& s) { s.geometry.points.clear(); }
+void empty_shapes(DeviceScene& s) { s.geometry.shapes.resize(1); }
 void empty_materials(DeviceScene& s) { s.materials.resize(1); }
 void empty_lights(DeviceScene& s) { s.lights.clear(); }
 void empty_light_nodes(DeviceScene& s) { s.light_tree.nodes.clear(); }

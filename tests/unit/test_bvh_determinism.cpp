@@ -19,7 +19,7 @@ struct Tree {
 Tree build(const Primitives& primitives, std::size_t threads, int stack_limit) {
     tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     Tree tree;
-    tree.root = bvh_append(tree.bvh, primitives, nullptr, stack_limit);
+    tree.root = bvh_append(tree.bvh, indexed_geometry(primitives), nullptr, stack_limit);
     return tree;
 }
 

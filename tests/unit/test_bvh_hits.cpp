@@ -14,7 +14,7 @@ struct Outcome {
 
 Outcome compare(const Primitives& primitives, int rays) {
     Bvh bvh;
-    int root = bvh_append(bvh, primitives);
+    int root = bvh_append(bvh, indexed_geometry(primitives));
     Random random(4);
     Outcome outcome;
     for (int i = 0; i < rays; i++) {

@@ -141,7 +141,7 @@ private:
 Survey check_tree(const Primitives& primitives, int stack_limit = BVH_STACK) {
     Bvh bvh;
     BvhStatistics statistics;
-    int root = bvh_append(bvh, primitives, &statistics, stack_limit);
+    int root = bvh_append(bvh, indexed_geometry(primitives), &statistics, stack_limit);
     Survey survey = Surveyor(bvh, primitives).run(root);
     int misplaced = 0;
     for (std::size_t i = 0; i < primitives.size(); i++)
@@ -221,7 +221,7 @@ TEST_CASE("Triangles without area are in no tree, however thin ones are", "[bvh]
 TEST_CASE("Boxes are those of the triangles, but for ones much larger than most", "[bvh]") {
     Primitives small = grid(50, 1);
     Bvh of_small;
-    bvh_append(of_small, small);
+    bvh_append(of_small, indexed_geometry(small));
     float longest = 0;
     for (const PrimitiveRecord& p : small)
         longest = std::max(longest, longest_side(p));
@@ -230,7 +230,7 @@ TEST_CASE("Boxes are those of the triangles, but for ones much larger than most"
     Primitives mixed = small;
     mixed.push_back(triangle({-1e5f, 0, 0}, {1e5f, 0, 0}, {0, 0, 2e5f}));
     Bvh of_mixed;
-    bvh_append(of_mixed, mixed);
+    bvh_append(of_mixed, indexed_geometry(mixed));
     CHECK(of_mixed.side >= longest);
     CHECK(of_mixed.side < 1024 * longest);
     auto room = [&](const PrimitiveRecord& p) {
@@ -250,9 +250,9 @@ TEST_CASE("A tree over a subset leaves the other primitives and the trees before
         odd.push_back(i);
     Bvh bvh;
     BvhStatistics statistics;
-    int all_root = bvh_append(bvh, primitives);
+    int all_root = bvh_append(bvh, indexed_geometry(primitives));
     std::size_t nodes = bvh.nodes.size();
-    int odd_root = bvh_append(bvh, primitives, odd, &statistics);
+    int odd_root = bvh_append(bvh, indexed_geometry(primitives), odd, &statistics);
     CHECK(bvh.nodes.size() == nodes + statistics.node_count);
     Survey both[] = {Surveyor(bvh, primitives).run(all_root),
                      Surveyor(bvh, primitives).run(odd_root)};
@@ -280,6 +280,7 @@ TEST_CASE("Leaves of a mesh are patches, in half the lines; what does not fit on
 TEST_CASE("Numbers too far apart for a patch, or as high as there are, stay what they are",
           "[bvh]") {
     Primitives primitives(std::size_t{1} << 21, triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+    IndexedGeometry geometry = indexed_geometry(primitives);
     int highest = int(primitives.size()) - 1, apart = 1 << BVH_PATCH_NUMBERS;
     struct Case {
         int first, second;
@@ -291,7 +292,7 @@ TEST_CASE("Numbers too far apart for a patch, or as high as there are, stay what
         CAPTURE(c.first, c.second);
         Bvh bvh;
         int numbers[] = {c.second, c.first};
-        Leaf leaf = read_leaf(bvh, bvh_append(bvh, primitives, numbers));
+        Leaf leaf = read_leaf(bvh, bvh_append(bvh, geometry, numbers));
         CHECK((leaf.lines == sizeof(BvhPatch) / sizeof(BvhLine)) == c.patch);
         CHECK(leaf.primitive[0] == c.second);
         CHECK(leaf.primitive[1] == c.first);
@@ -330,7 +331,7 @@ TEST_CASE("The stack the kernels have suffices for every tree", "[bvh]") {
         Primitives primitives = random_triangles(3000, .3f);
         Bvh bvh;
         BvhStatistics statistics;
-        int root = bvh_append(bvh, primitives, &statistics);
+        int root = bvh_append(bvh, indexed_geometry(primitives), &statistics);
         Random random(7);
         std::size_t peak = 0;
         for (int i = 0; i < 1000; i++)

@@ -30,7 +30,7 @@ struct Leaks {
 
 Leaks count_leaks(const Primitives& mesh, float radius, const Vector& centre) {
     Bvh bvh;
-    int root = bvh_append(bvh, mesh);
+    int root = bvh_append(bvh, indexed_geometry(mesh));
     Random random(6);
     Leaks leaks;
     std::vector<Vector> aims = targets(mesh);

@@ -50,8 +50,9 @@ TEST_CASE("Parallelograms: a quad is one light that both its triangles name, of 
     REQUIRE(quad != flat.lights.end());
     CHECK(std::count_if(flat.lights.begin(), flat.lights.end(), is_quad) == 1);
     int row = static_cast<int>(quad - flat.lights.begin());
-    CHECK(std::count_if(flat.primitives.begin(), flat.primitives.end(),
-                        [&](const PrimitiveRecord& p) { return p.light == row; }) == 2);
+    const auto& primitives = flat.geometry.primitives;
+    CHECK(std::count_if(primitives.begin(), primitives.end(),
+                        [&](const IndexedPrimitiveRecord& p) { return p.light == row; }) == 2);
     double area = std::pow(flat.frame.scale, 2); // 1 x 1
     CHECK((quad->area == Approx(area) && quad->extra == Approx(1 / area)));
     CHECK(flat.features.has(feature_emitter_area_parallelogram));

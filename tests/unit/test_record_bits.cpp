@@ -1,6 +1,7 @@
 // What records derive from their own words is derived from those words, rounded as they are: the
 // same bits from every compiler.
 #include "host/flatten/device_scene.h"
+#include "tests/support/single_primitives.h"
 
 #include <catch2/catch.hpp>
 
@@ -46,7 +47,7 @@ double length_of_normal(const PrimitiveRecord& p) {
 
 TEST_CASE("A triangle's record holds the length of its own normal", "[unit]") {
     const DeviceScene flat = make_device_scene(scene_of_triangles());
-    REQUIRE(flat.primitives.size() == 64);
-    for (const PrimitiveRecord& p : flat.primitives)
+    REQUIRE(flat.geometry.primitives.size() == 64);
+    for (const PrimitiveRecord& p : test::single_primitives(flat.geometry))
         CHECK(p.extra == static_cast<float>(1.0 / length_of_normal(p)));
 }

@@ -143,9 +143,9 @@ TEST_CASE("Record truths: where lights are and which way they shine", "[truths]"
     check_point(l[8].bx, l[8].by, l[8].bz, {0, -0.6, 0.8});
     // What shines knows its row; the two halves of the parallelogram share one.
     const int rows[] = {-1, -1, 0, 1, 1, 2, 3, 4, 5};
-    REQUIRE(device.primitives.size() == std::size(rows));
+    REQUIRE(device.geometry.primitives.size() == std::size(rows));
     for (std::size_t i = 0; i < std::size(rows); i++)
-        CHECK(device.primitives[i].light == rows[i]);
+        CHECK(device.geometry.primitives[i].light == rows[i]);
 }
 
 TEST_CASE("Record truths: boxes, cones and brightness of lights for the tree", "[truths]") {

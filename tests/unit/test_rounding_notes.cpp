@@ -172,11 +172,13 @@ TEST_CASE("Lights: points of a tiny triangle know how far they may be from the o
         Mesh mesh =
             quad(place, {size * u.x, size * u.y, size * u.z}, {size * v.x, size * v.y, size * v.z});
         DeviceScene scene = make_device_scene(room_with(mesh, Rgb(1)));
-        for (const PrimitiveRecord& p : scene.primitives) {
-            if (p.light < 0) continue;
+        for (int i = 0; i < int(scene.geometry.primitives.size()); i++) {
+            int light = scene.geometry.primitives[std::size_t(i)].light;
+            if (light < 0) continue;
+            PrimitiveRecord p = scene.geometry.primitive(i);
             glm::dvec3 a(p.ax, p.ay, p.az), b(p.bx, p.by, p.bz), c(p.cx, p.cy, p.cz);
             glm::dvec3 normal = glm::cross(b - a, c - a);
-            const LightRecord& row = scene.lights[std::size_t(p.light)];
+            const LightRecord& row = scene.lights[std::size_t(light)];
             if (glm::length(normal) == 0 || row.kind != emitter_area_tiny_triangle) continue;
             normal = glm::normalize(normal);
             glm::dvec3 near = a + 0.01 * glm::length(a) * glm::dvec3(away.x, away.y, away.z);

@@ -201,7 +201,7 @@ TEST_CASE("Scene frame: a grain beside a planet keeps its shape") {
     Scene scene =
         scene_of({ball({0, -1e7, 0}, 1e7), ball({2e-6, 1e-6, 3e-6}, 1e-6)}, {1e-5, 4e-6, 2e-5});
     DeviceScene flat = make_device_scene(scene);
-    const PrimitiveRecord& grain = flat.primitives[1];
+    PrimitiveRecord grain = flat.geometry.primitive(1);
     glm::dvec3 camera = flat.frame.point(glm::dvec3(scene.camera.to_world[3]));
     glm::dvec3 seen = (glm::dvec3(grain.ax, grain.ay, grain.az) - camera) * flat.frame.unit();
     glm::dvec3 truth(2e-6 - 1e-5, 1e-6 - 4e-6, 3e-6 - 2e-5);
@@ -220,9 +220,10 @@ TEST_CASE(
     for (double size : {1e-320, 1e-300, 1e-30, 1e30, 1e300}) {
         DeviceScene flat = make_device_scene(scene_of({ball({size, 0, 0}, size)}, {}));
         INFO(size);
-        CHECK(std::isfinite(flat.primitives[0].extra));
-        CHECK(flat.primitives[0].extra > 0);
-        CHECK(std::isfinite(flat.primitives[0].ax));
+        PrimitiveRecord sphere = flat.geometry.primitive(0);
+        CHECK(std::isfinite(sphere.extra));
+        CHECK(sphere.extra > 0);
+        CHECK(std::isfinite(sphere.ax));
     }
     Scene broken = scene_of({ball({-1.5e308, 0, 0}, 1), ball({1.5e308, 0, 0}, 1)}, {});
     broken.file = "far.xml";

@@ -3,8 +3,8 @@
 
 // The list below is a table.
 // clang-format off
-#define PRIMITIVE_LAYOUT(type, name) LAYOUT_FIELD(PrimitiveRecord, name)
-#define VERTEX_LAYOUT(type, name) LAYOUT_FIELD(VertexRecord, name)
+#define PRIMITIVE_LAYOUT(type, name) LAYOUT_FIELD(IndexedPrimitiveRecord, name)
+#define SHAPE_LAYOUT(type, name) LAYOUT_FIELD(ShapeRecord, name)
 #define MATERIAL_LAYOUT(type, name) LAYOUT_FIELD(MaterialRecord, name)
 #define LIGHT_LAYOUT(type, name) LAYOUT_FIELD(LightRecord, name)
 #define LIGHT_NODE_LAYOUT(type, name) LAYOUT_FIELD(LightNodeRecord, name)
@@ -12,10 +12,10 @@
 #define RENDER_LAYOUT(type, name) LAYOUT_FIELD(RenderParams, name)
 
 #define LAYOUTS                                                                                    \
-    LAYOUT_TYPE(PrimitiveRecord)                                                                   \
-    PRIMITIVE_FIELDS(PRIMITIVE_LAYOUT)                                                             \
-    LAYOUT_TYPE(VertexRecord)                                                                      \
-    VERTEX_FIELDS(VERTEX_LAYOUT) LAYOUT_TYPE(MaterialRecord) MATERIAL_FIELDS(MATERIAL_LAYOUT)      \
+    LAYOUT_TYPE(IndexedPrimitiveRecord)                                                            \
+    INDEXED_PRIMITIVE_FIELDS(PRIMITIVE_LAYOUT)                                                     \
+    LAYOUT_TYPE(ShapeRecord)                                                                       \
+    SHAPE_FIELDS(SHAPE_LAYOUT) LAYOUT_TYPE(MaterialRecord) MATERIAL_FIELDS(MATERIAL_LAYOUT)      \
         LAYOUT_TYPE(LightRecord) LIGHT_FIELDS(LIGHT_LAYOUT) LAYOUT_TYPE(LightNodeRecord) LIGHT_NODE_FIELDS(LIGHT_NODE_LAYOUT) LAYOUT_TYPE(FilterBin)          \
             LAYOUT_FIELD(FilterBin, x) LAYOUT_FIELD(FilterBin, weight) LAYOUT_TYPE(BvhNode)        \
                 LAYOUT_FIELD(BvhNode, bounds) LAYOUT_FIELD(BvhNode, child) LAYOUT_TYPE(BvhLeaf)    \

@@ -1,0 +1,216 @@
+// Shapes of a scene as the device stores them: primitives, points and what they have beside.
+#include "host/flatten/shape_records.h"
+
+#include "host/error.h"
+#include "host/parallel.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <variant>
+
+namespace parhelion {
+namespace {
+
+template<int N>
+void write(const glm::vec<N, double>& v, float* to) {
+    for (int k = 0; k < N; k++)
+        to[k] = static_cast<float>(v[k]);
+}
+
+/// What points have beside: whether any mesh has it, and something reads it.
+struct Attributes {
+    bool normals = false;
+    bool uvs = false; ///< read by lobes that lie along them, and by their AOV
+
+    std::size_t point_words() const { return POINT_WORDS(normals, uvs); }
+};
+
+Attributes attributes_of(const Scene& scene, const std::vector<MaterialRecord>& materials) {
+    auto lies = [](const MaterialRecord& m) { return m.alpha_u != m.alpha_v; };
+    auto is_uv = [](const AovRequest& a) { return a.kind == "uv"; };
+    const auto& aovs = scene.integrator.aovs;
+    bool reads_uvs = std::any_of(materials.begin(), materials.end(), lies) ||
+                     std::any_of(aovs.begin(), aovs.end(), is_uv);
+    Attributes some;
+    for (const Shape& shape : scene.shapes)
+        if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+            mesh && !mesh->triangles.empty()) {
+            some.normals |= !mesh->normals.empty();
+            some.uvs |= reads_uvs && !mesh->uvs.empty();
+        }
+    return some;
+}
+
+ShapeRecord shape_record(const Shape& shape, int flags, const IndexedGeometry& geometry) {
+    ShapeRecord s{};
+    s.flags = flags;
+    s.material_front = shape.material_front;
+    s.material_back = shape.material_back;
+    s.first_primitive = static_cast<int>(geometry.primitives.size());
+    return s;
+}
+
+/// The vertices of a mesh that its triangles use: its points, in their order.
+struct UsedVertices {
+    std::size_t count;
+    // Both empty where all are used.
+    std::vector<std::uint32_t> points;   ///< of each vertex
+    std::vector<std::uint32_t> vertices; ///< of each point
+
+    std::uint32_t point(std::uint32_t vertex) const {
+        return points.empty() ? vertex : points[vertex];
+    }
+    std::size_t vertex(std::size_t point) const {
+        return vertices.empty() ? point : vertices[point];
+    }
+};
+
+UsedVertices used_vertices(const Mesh& mesh) {
+    std::vector<std::uint32_t> used(mesh.positions.size()), vertices;
+    for (const glm::uvec3& t : mesh.triangles)
+        used[t.x] = used[t.y] = used[t.z] = 1;
+    auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1u));
+    if (count == used.size()) return {count, {}, {}};
+    vertices.reserve(count);
+    for (std::size_t i = 0; i < used.size(); i++)
+        if (used[i] != 0) {
+            used[i] = static_cast<std::uint32_t>(vertices.size());
+            vertices.push_back(static_cast<std::uint32_t>(i));
+        }
+    return {count, std::move(used), std::move(vertices)};
+}
+
+/// The place of the first.
+std::size_t add_points(const Mesh& mesh, const UsedVertices& used, Attributes some,
+                       DeviceScene& out) {
+    auto& points = out.geometry.points;
+    std::size_t first = points.size(), words = some.point_words();
+    points.resize(first + used.count * words);
+    parallel_for(used.count, [&](std::size_t i) {
+        std::size_t v = used.vertex(i);
+        float* point = &points[first + i * words];
+        write(out.frame.point(mesh.positions[v]), point);
+        if (some.normals)
+            write(mesh.normals.empty() ? glm::dvec3(0.0) : mesh.normals[v], point + POINT_NORMAL);
+        if (some.uvs)
+            write(mesh.uvs.empty() ? glm::dvec2(0.0) : mesh.uvs[v], point + POINT_UV(some.normals));
+    });
+    return first;
+}
+
+/// Of the triangle that the record holds. Not inlined: where g++ 12 sees corners rounded to float
+/// and taken back to double, its vectors leave the rounding out (at -O2), and other compilers give
+/// other bits.
+[[gnu::noinline]] float inverse_normal_length_of(const PrimitiveRecord& p) {
+    const glm::dvec3 a(p.ax, p.ay, p.az);
+    return inverse_normal_length(glm::dvec3(p.bx, p.by, p.bz) - a,
+                                 glm::dvec3(p.cx, p.cy, p.cz) - a);
+}
+
+/// Of the last shape that there is.
+IndexedPrimitiveRecord primitive(std::size_t a, std::size_t b, std::size_t c, float extra,
+                                 const IndexedGeometry& geometry) {
+    auto number = static_cast<int>(geometry.shapes.size()) - 1;
+    const ShapeRecord& shape = geometry.shapes.back();
+    return {static_cast<int>(a),
+            static_cast<int>(b),
+            static_cast<int>(c),
+            extra,
+            (number << PRIMITIVE_FLAG_BITS) | shape.flags,
+            shape.material_front,
+            -1};
+}
+
+void add_triangles(const Mesh& mesh, const UsedVertices& used, std::size_t first_point,
+                   std::size_t point_words, IndexedGeometry& out) {
+    std::size_t first = out.primitives.size();
+    out.primitives.resize(first + mesh.triangles.size());
+    parallel_for(mesh.triangles.size(), [&](std::size_t i) {
+        auto place = [&](std::uint32_t vertex) {
+            return first_point + used.point(vertex) * point_words;
+        };
+        const glm::uvec3& t = mesh.triangles[i];
+        auto number = static_cast<int>(first + i);
+        out.primitives[first + i] = primitive(place(t.x), place(t.y), place(t.z), 0.f, out);
+        out.primitives[first + i].extra = inverse_normal_length_of(out.primitive(number));
+    });
+}
+
+void add_shape(const Mesh& mesh, const Shape& shape, Attributes some, DeviceScene& out) {
+    int flags = geometry_triangle | (mesh.normals.empty() ? 0 : PRIMITIVE_NORMALS) |
+                (mesh.uvs.empty() || !some.uvs ? 0 : PRIMITIVE_UVS);
+    UsedVertices used = used_vertices(mesh);
+    std::size_t first = add_points(mesh, used, some, out);
+    out.geometry.shapes.push_back(shape_record(shape, flags, out.geometry));
+    add_triangles(mesh, used, first, some.point_words(), out.geometry);
+}
+
+/// A shape of one primitive with three points of its own.
+void add_analytic(const ShapeRecord& record, const std::array<glm::dvec3, 3>& points, float extra,
+                  Attributes some, DeviceScene& out) {
+    IndexedGeometry& to = out.geometry;
+    std::size_t words = some.point_words(), first = to.points.size();
+    to.shapes.push_back(record);
+    to.points.insert(to.points.end(), points.size() * words, 0.f);
+    for (std::size_t i = 0; i < points.size(); i++)
+        write(points[i], &to.points[first + i * words]);
+    to.primitives.push_back(primitive(first, first + words, first + 2 * words, extra, to));
+}
+
+void add_shape(const Sphere& in_scene, const Shape& shape, Attributes some, DeviceScene& out) {
+    Sphere sphere = out.frame.sphere(in_scene);
+    int flags = geometry_sphere | (sphere.flip_normals ? PRIMITIVE_FLIPPED : 0);
+    add_analytic(shape_record(shape, flags, out.geometry),
+                 {sphere.center, sphere.axis_x, sphere.axis_z}, static_cast<float>(sphere.radius),
+                 some, out);
+}
+
+void add_shape(const Disk& in_scene, const Shape& shape, Attributes some, DeviceScene& out) {
+    Disk disk = out.frame.disk(in_scene);
+    int flags = geometry_disk | (disk.flip_normals ? PRIMITIVE_FLIPPED : 0);
+    add_analytic(shape_record(shape, flags, out.geometry), {disk.center, disk.edge_u, disk.edge_v},
+                 inverse_normal_length(disk.edge_u, disk.edge_v), some, out);
+}
+
+/// Arrays that grow would be copied, and have room to spare in the end.
+void reserve(const Scene& scene, Attributes some, DeviceScene& out) {
+    std::size_t primitives = 0, points = 0;
+    for (const Shape& shape : scene.shapes) {
+        const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+        primitives += primitive_count(shape);
+        points += mesh ? mesh->positions.size() : 3;
+    }
+    constexpr std::size_t most = std::numeric_limits<int>::max();
+    if (primitives > most / 16)
+        throw InputError(fmt::format("{}: {} primitives; the device indexes at most {}", scene.file,
+                                     primitives, most / 16));
+    constexpr std::size_t most_shapes = most >> PRIMITIVE_FLAG_BITS;
+    if (scene.shapes.size() > most_shapes)
+        throw InputError(fmt::format("{}: {} shapes; the device numbers at most {}", scene.file,
+                                     scene.shapes.size(), most_shapes));
+    if (points > most / some.point_words())
+        throw InputError(fmt::format("{}: {} vertices; the device indexes at most {}", scene.file,
+                                     points, most / some.point_words()));
+    out.geometry.primitives.reserve(primitives);
+    out.geometry.points.reserve((points + 1) * some.point_words() + 1);
+    out.geometry.shapes.reserve(scene.shapes.size());
+}
+
+} // namespace
+
+void add_shapes(const Scene& scene, DeviceScene& out) {
+    Attributes some = attributes_of(scene, out.materials);
+    reserve(scene, some, out);
+    for (const Shape& shape : scene.shapes)
+        std::visit([&](const auto& g) { add_shape(g, shape, some, out); }, shape.geometry);
+    // What lanes that have hit nothing look at where there is nothing, and a word more.
+    out.geometry.points.insert(out.geometry.points.end(), some.point_words() + 1, 0.f);
+}
+
+} // namespace parhelion
