@@ -32,6 +32,8 @@ struct Domain {
     std::array<int, 4> only{}; ///< these alone, `only_count` of them; 0: all between the ends
     int only_count = 0;
 
+    bool operator==(const Domain&) const = default;
+
     constexpr Domain in(std::string_view name) const {
         Domain domain = *this;
         domain.unit = name;

@@ -89,14 +89,14 @@ Checks row_density(StressRun& run) {
     Checks checks;
     std::uint64_t count = run.count(100'000, 300'000, 100'000'000);
     std::size_t views = 0;
-#define COUNT_VIEWS(label, sides) views += configurations(material_##label, false).size();
+#define COUNT_VIEWS(label, ...) views += configurations(material_##label, false).size();
     MATERIALS(COUNT_VIEWS)
     views += anisotropic_at_60_degrees().size();
     std::atomic<std::size_t> finished = 0;
     auto view_done = [&] {
         run.done(static_cast<double>(++finished) / static_cast<double>(views));
     };
-#define TEST_KIND(label, sides)                                                                    \
+#define TEST_KIND(label, ...)                                                                      \
     if (std::vector<Configuration> list = configurations(material_##label, false); !list.empty())  \
         for (const Check& check : density_checks(run, #label, list, count, view_done))             \
             checks.push_back(check);
@@ -129,7 +129,7 @@ Checks row_furnace(StressRun& run) {
                           .samples = count * list.size(),
                           .worst_at = text_of(list[worst])});
     };
-#define FURNACE_KIND(label, sides) test_kind(#label, material_##label);
+#define FURNACE_KIND(label, ...) test_kind(#label, material_##label);
     MATERIALS(FURNACE_KIND)
     return checks;
 }

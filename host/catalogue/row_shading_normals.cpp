@@ -85,7 +85,7 @@ Checks furnaces(StressRun& run, const std::vector<NamedBsdf>& bsdfs) {
 
 /// Mirror images that go into the sphere would be dark.
 Checks mirror_furnace(StressRun& run) {
-    Scene scene = smooth_spheres({{"mirror", ConductorBsdf{Rgb(0), Rgb(1), Rgb(1)}}},
+    Scene scene = smooth_spheres({{"mirror", ConductorBsdf{{Rgb(0), Rgb(1)}, Rgb(1)}}},
                                  Spheres::closed, 200, 16);
     scene.emitters = {ConstantEmitter{Rgb(1)}};
     Image image = image_of(run, scene);

@@ -113,12 +113,11 @@ std::vector<UsedFile> files_of(const Scene& scene) {
 }
 
 void leave_out_energy_compensation(Scene& scene) {
-    for (Material& material : scene.materials) {
-        if (auto* metal = std::get_if<RoughConductorBsdf>(&material.bsdf))
-            metal->energy_compensation = false;
-        if (auto* glass = std::get_if<RoughDielectricBsdf>(&material.bsdf))
-            glass->energy_compensation = false;
-    }
+    auto leave_out = [](auto& b) {
+        if constexpr (requires { b.energy_compensation; }) b.energy_compensation = false;
+    };
+    for (Material& material : scene.materials)
+        std::visit(leave_out, material.bsdf);
 }
 
 void apply_overrides(const RenderCommand& command, Scene& scene) {

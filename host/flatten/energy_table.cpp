@@ -136,10 +136,12 @@ std::vector<float> energy_tables(const MaterialRecord& record, int azimuths) {
 }
 
 bool wants_energy_compensation(const Bsdf& bsdf) {
-    const auto* conductor = std::get_if<RoughConductorBsdf>(&bsdf);
-    const auto* dielectric = std::get_if<RoughDielectricBsdf>(&bsdf);
-    return (conductor && conductor->energy_compensation) ||
-           (dielectric && dielectric->energy_compensation);
+    return std::visit(
+        [](const auto& b) {
+            if constexpr (requires { b.energy_compensation; }) return b.energy_compensation;
+            return false;
+        },
+        bsdf);
 }
 
 void add_energy_tables(const Scene& scene, DeviceScene& out) {

@@ -7,7 +7,7 @@
 
 namespace parhelion {
 
-#define KIND_NAME_MATERIAL(name, sides) #name,
+#define KIND_NAME_MATERIAL(name, ...) #name,
 inline constexpr std::array material_names{MATERIALS(KIND_NAME_MATERIAL)};
 #define KIND_NAME(name) #name,
 inline constexpr std::array emitter_names{EMITTERS(KIND_NAME)};

@@ -1,4 +1,4 @@
-// A material as the device reads it; one function a kind.
+// A material as the device reads it, from the lists of parameters.
 #include "host/flatten/material_records.h"
 
 #include "host/flatten/gauss_legendre.h"
@@ -7,12 +7,13 @@
 namespace parhelion {
 namespace {
 
-MaterialRecord record(MaterialKind kind) {
-    MaterialRecord m{};
-    m.kind = kind;
-    m.alpha_u = m.alpha_v = 1.0f;
-    return m;
-}
+// What parameters become, by the last word of their lists in kernels/shared/materials.h.
+
+#define SET_WORD(type, name)                                                                       \
+    [[maybe_unused]] void set_##name(MaterialRecord& m, double value) {                            \
+        m.name = static_cast<type>(value);                                                         \
+    }
+MATERIAL_FIELDS(SET_WORD)
 
 void set_reflectance(MaterialRecord& m, const Rgb& c) {
     m.r = static_cast<float>(c.r), m.g = static_cast<float>(c.g), m.b = static_cast<float>(c.b);
@@ -22,16 +23,11 @@ void set_transmittance(MaterialRecord& m, const Rgb& c) {
     m.tr = static_cast<float>(c.r), m.tg = static_cast<float>(c.g), m.tb = static_cast<float>(c.b);
 }
 
-void set_conductor(MaterialRecord& m, const Rgb& eta, const Rgb& k) {
+void set_conductor(MaterialRecord& m, const parameter::ComplexIndex::Value& index) {
+    const auto& [eta, k] = index;
     m.er = static_cast<float>(eta.r), m.eg = static_cast<float>(eta.g),
     m.eb = static_cast<float>(eta.b);
     m.kr = static_cast<float>(k.r), m.kg = static_cast<float>(k.g), m.kb = static_cast<float>(k.b);
-}
-
-/// Fresnel reflectance of light from everywhere, weighted by the cosine.
-double average_reflectance(double eta, double k) {
-    static const GaussLegendre<32> rule;
-    return rule.integrate([&](double c) { return 2.0 * c * f64::fresnel_conductor(c, eta, k); });
 }
 
 /// eta^2 - 1 from both sides in two floats each, so that the device can tell on which side of the
@@ -46,67 +42,53 @@ void set_interface(MaterialRecord& m, double eta) {
     m.kb = static_cast<float>(inside - m.kg);
 }
 
-void set_roughness(MaterialRecord& m, MicrofacetDistribution distribution, double alpha_u,
-                   double alpha_v) {
-    m.distribution = distribution == MicrofacetDistribution::beckmann ? 1 : 0;
-    m.alpha_u = static_cast<float>(alpha_u);
-    m.alpha_v = static_cast<float>(alpha_v);
+void set_roughness(MaterialRecord& m, const parameter::Roughness::Value& r) {
+    m.distribution = r.distribution == MicrofacetDistribution::beckmann ? 1 : 0;
+    m.alpha_u = static_cast<float>(r.alpha_u);
+    m.alpha_v = static_cast<float>(r.alpha_v);
 }
 
-MaterialRecord pack(const DiffuseBsdf& b) {
-    MaterialRecord m = record(material_diffuse);
-    set_reflectance(m, b.reflectance);
-    return m;
+void set_nothing(const MaterialRecord&, bool) {} // for the host alone
+
+/// Fresnel reflectance of light from everywhere, weighted by the cosine.
+double average_reflectance(double eta, double k) {
+    static const GaussLegendre<32> rule;
+    return rule.integrate([&](double c) { return 2.0 * c * f64::fresnel_conductor(c, eta, k); });
 }
 
-MaterialRecord pack(const ConductorBsdf& b) {
-    MaterialRecord m = record(material_conductor);
-    set_reflectance(m, b.specular_reflectance);
-    set_conductor(m, b.eta, b.k);
-    return m;
-}
+/// What follows from several parameters of a kind; of most nothing.
+void derive(const MaterialRecord&, const auto&) {}
 
-template<class Dielectric>
-MaterialRecord pack_dielectric(MaterialKind kind, const Dielectric& b) {
-    MaterialRecord m = record(kind);
-    set_reflectance(m, b.specular_reflectance);
-    set_transmittance(m, b.specular_transmittance);
-    set_interface(m, b.eta);
-    return m;
-}
-
-MaterialRecord pack(const DielectricBsdf& b) { return pack_dielectric(material_dielectric, b); }
-MaterialRecord pack(const ThinDielectricBsdf& b) {
-    return pack_dielectric(material_thindielectric, b);
-}
-
-MaterialRecord pack(const RoughConductorBsdf& b) {
-    MaterialRecord m = record(material_roughconductor);
-    set_reflectance(m, b.specular_reflectance);
-    set_conductor(m, b.eta, b.k);
-    Rgb average(average_reflectance(b.eta.r, b.k.r), average_reflectance(b.eta.g, b.k.g),
-                average_reflectance(b.eta.b, b.k.b));
+/// Rough metals keep their average reflectance in place of a transmittance.
+void derive(MaterialRecord& m, const RoughConductorBsdf& b) {
+    const auto& [eta, k] = b.index;
+    Rgb average(average_reflectance(eta.r, k.r), average_reflectance(eta.g, k.g),
+                average_reflectance(eta.b, k.b));
     set_transmittance(m, b.specular_reflectance * average);
-    set_roughness(m, b.distribution, b.alpha_u, b.alpha_v);
-    return m;
 }
 
-MaterialRecord pack(const RoughDielectricBsdf& b) {
-    MaterialRecord m = pack_dielectric(material_roughdielectric, b);
-    set_roughness(m, b.distribution, b.alpha_u, b.alpha_v);
-    return m;
-}
-
-MaterialRecord pack(const NullBsdf&) {
-    MaterialRecord m = record(material_null);
-    set_reflectance(m, Rgb(1.0));
-    return m;
-}
+#define SET_PARAMETER(Kind, name, missing, domain, stored) set_##stored(m, b.name);
+#define PACK_BSDF(name, Name, ...)                                                                 \
+    void set_parameters([[maybe_unused]] MaterialRecord& m,                                        \
+                        [[maybe_unused]] const Name##Bsdf& b) {                                    \
+        PARAMETERS_##name(SET_PARAMETER)                                                           \
+    }
+MATERIALS(PACK_BSDF)
 
 } // namespace
 
 MaterialRecord material_record(const Bsdf& bsdf) {
-    return std::visit([](const auto& b) { return pack(b); }, bsdf);
+    MaterialRecord m{};
+    m.kind = static_cast<int>(bsdf.index());
+    m.alpha_u = m.alpha_v = 1.0f;
+    set_reflectance(m, Rgb(1.0));
+    std::visit(
+        [&](const auto& b) {
+            set_parameters(m, b);
+            derive(m, b);
+        },
+        bsdf);
+    return m;
 }
 
 } // namespace parhelion

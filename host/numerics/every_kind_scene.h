@@ -24,16 +24,15 @@ inline Mesh quad(glm::dvec3 a, glm::dvec3 u, glm::dvec3 v) {
 }
 
 inline void add_every_material(Scene& scene) {
-    Bsdf bsdfs[] = {
-        DiffuseBsdf{Rgb(0.6, 0.5, 0.4)},
-        ConductorBsdf{Rgb(0.2, 0.9, 1.1), Rgb(3.9, 2.4, 2.2), Rgb(1.0)},
-        DielectricBsdf{},
-        ThinDielectricBsdf{},
-        RoughConductorBsdf{MicrofacetDistribution::beckmann, 0.1, 0.3, Rgb(0.2), Rgb(3.0),
-                           Rgb(0.9)},
-        RoughDielectricBsdf{MicrofacetDistribution::ggx, 0.2, 0.2, 1.5, Rgb(1.0), Rgb(1.0)},
-        NullBsdf{},
-        DiffuseBsdf{Rgb(0.1, 0.7, 0.3)}};
+#define DEFAULT_BSDF(name, Name, ...) Name##Bsdf{},
+    std::vector<Bsdf> bsdfs{MATERIALS(DEFAULT_BSDF)};
+    bsdfs[material_diffuse] = DiffuseBsdf{Rgb(0.6, 0.5, 0.4)};
+    bsdfs[material_conductor] = ConductorBsdf{{Rgb(0.2, 0.9, 1.1), Rgb(3.9, 2.4, 2.2)}, Rgb(1.0)};
+    bsdfs[material_roughconductor] = RoughConductorBsdf{
+        {MicrofacetDistribution::beckmann, 0.1, 0.3}, {Rgb(0.2), Rgb(3.0)}, Rgb(0.9)};
+    bsdfs[material_roughdielectric] =
+        RoughDielectricBsdf{{MicrofacetDistribution::ggx, 0.2, 0.2}, 1.5, Rgb(1.0), Rgb(1.0)};
+    bsdfs.emplace_back(DiffuseBsdf{Rgb(0.1, 0.7, 0.3)});
     for (const Bsdf& b : bsdfs)
         scene.materials.push_back({"", {}, b});
 }
@@ -43,9 +42,10 @@ inline Scene every_kind_scene() {
     scene.file = "made by the test";
     add_every_material(scene);
     scene.shapes.push_back(shape_of(quad({-4, -1, -4}, {0, 0, 8}, {8, 0, 0}), 0, 0));
-    scene.shapes.push_back(shape_of(quad({-4, -1, -2}, {8, 0, 0}, {0, 6, 0}), 7, no_material));
-    for (int k = 1; k < 7; k++) {
-        bool opaque = k == 1 || k == 4;
+    scene.shapes.push_back(
+        shape_of(quad({-4, -1, -2}, {8, 0, 0}, {0, 6, 0}), material_kind_count, no_material));
+    for (int k = 1; k < material_kind_count; k++) {
+        bool opaque = (OPAQUE_MATERIALS >> k) & 1;
         Sphere s;
         s.center = {-2.1 + 0.8 * k, -0.6 + 0.05 * k, -0.2 * (k % 3)};
         s.radius = 0.38;
@@ -55,9 +55,9 @@ inline Scene every_kind_scene() {
     for (const glm::dvec3& p : smooth.positions)
         smooth.normals.push_back(glm::normalize(p + glm::dvec3(0, 0, 2)));
     smooth.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    scene.shapes.push_back(shape_of(smooth, 4, 0));
-    scene.shapes.push_back(
-        shape_of(Disk{{0.9, 0.9, -0.3}, {0.5, 0, 0.1}, {0, 0.3, 0.2}, true}, 5, 5));
+    scene.shapes.push_back(shape_of(smooth, material_roughconductor, 0));
+    scene.shapes.push_back(shape_of(Disk{{0.9, 0.9, -0.3}, {0.5, 0, 0.1}, {0, 0.3, 0.2}, true},
+                                    material_roughdielectric, material_roughdielectric));
     Mesh lamp = quad({-0.5, 2.5, -0.5}, {1, 0, 0}, {0, 0, 1}); // and a triangle at its side
     lamp.positions.push_back({0.1, 2.6, 1.1});
     lamp.triangles.push_back({3, 2, 4});

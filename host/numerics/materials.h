@@ -2,6 +2,10 @@
 // another word.
 #pragma once
 
+#include "host/flatten/kind_names.h"
+
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -70,15 +74,14 @@ inline std::vector<MaterialCase> material_cases() {
         {"lossless, GGX 0.001", 0, false, true, one, one, none, one, 1.5, 0.001, 0.001, 0},
     };
     std::vector<MaterialCase> cases;
-    for (const MaterialCase& p : parameters) {
-#define ADD_CASE(label, sides)                                                                     \
-    cases.push_back(p);                                                                            \
-    cases.back().name = #label ", " + p.name;                                                      \
-    cases.back().kind = material_##label;                                                          \
-    cases.back().transparent = !SIDES_##sides;
-        MATERIALS(ADD_CASE)
-#undef ADD_CASE
-    }
+    for (const MaterialCase& p : parameters)
+        for (int kind = 0; kind < material_kind_count; kind++) {
+            MaterialCase c = p;
+            c.name = fmt::format("{}, {}", material_names[kind], p.name);
+            c.kind = kind;
+            c.transparent = !((OPAQUE_MATERIALS >> kind) & 1);
+            cases.push_back(c);
+        }
     return cases;
 }
 

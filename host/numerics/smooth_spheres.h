@@ -63,14 +63,14 @@ struct NamedBsdf {
 inline std::vector<NamedBsdf> white_bsdfs() {
     using enum MicrofacetDistribution;
     auto metal = [](double alpha) {
-        return RoughConductorBsdf{ggx, alpha, alpha, Rgb(0), Rgb(1), Rgb(1)};
+        return RoughConductorBsdf{{ggx, alpha, alpha}, {Rgb(0), Rgb(1)}, Rgb(1)};
     };
     return {{"diffuse", DiffuseBsdf{Rgb(1)}},
-            {"mirror", ConductorBsdf{Rgb(0), Rgb(1), Rgb(1)}},
+            {"mirror", ConductorBsdf{{Rgb(0), Rgb(1)}, Rgb(1)}},
             {"metal, GGX 0.1", metal(0.1)},
             {"metal, GGX 0.5", metal(0.5)},
             {"glass", DielectricBsdf{}, true},
-            {"glass, GGX 0.3", RoughDielectricBsdf{ggx, 0.3, 0.3, 1.5, Rgb(1), Rgb(1)}, true}};
+            {"glass, GGX 0.3", RoughDielectricBsdf{{ggx, 0.3, 0.3}, 1.5, Rgb(1), Rgb(1)}, true}};
 }
 
 enum class Spheres { closed, open_to_the_right };

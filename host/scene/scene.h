@@ -6,6 +6,8 @@
 #pragma once
 
 #include "host/error.h"
+#include "host/scene/parameter.h"
+#include "kernels/shared/materials.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -22,62 +24,22 @@
 
 namespace parhelion {
 
-using Rgb =
-    glm::dvec3; ///< linear sRGB primaries, D65 white; radiometric unit given where it is used
-
 // ----------------------------------------------------------------------------------------------
-// materials
+// materials, from the lists in kernels/shared/materials.h
 
-enum class MicrofacetDistribution { ggx, beckmann };
+#define BSDF_MEMBER(Kind, name, missing, ...) parameter::Kind::Value name{missing};
+#define BSDF_STRUCT(name, Name, ...)                                                               \
+    struct Name##Bsdf {                                                                            \
+        PARAMETERS_##name(BSDF_MEMBER)                                                             \
+    };
+MATERIALS(BSDF_STRUCT)
 
-struct DiffuseBsdf {
-    Rgb reflectance{0.5};
+template<class, class... Kinds>
+struct VariantOf {
+    using Type = std::variant<Kinds...>;
 };
-
-/// Smooth conductor; eta and k are relative to the exterior medium.
-struct ConductorBsdf {
-    Rgb eta{0.0};
-    Rgb k{1.0};
-    Rgb specular_reflectance{1.0};
-};
-
-/// Smooth interface between two dielectrics.
-struct DielectricBsdf {
-    double eta = 1.5046 / 1.000277; ///< interior index over exterior index
-    Rgb specular_reflectance{1.0};
-    Rgb specular_transmittance{1.0};
-};
-
-/// A dielectric slab too thin to displace the ray; inter-reflection inside is summed.
-struct ThinDielectricBsdf {
-    double eta = 1.5046 / 1.000277;
-    Rgb specular_reflectance{1.0};
-    Rgb specular_transmittance{1.0};
-};
-
-struct RoughConductorBsdf {
-    MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
-    double alpha_u = 0.1, alpha_v = 0.1;
-    Rgb eta{0.0};
-    Rgb k{1.0};
-    Rgb specular_reflectance{1.0};
-    bool energy_compensation = true; ///< light scattered more than once is added to the lobe
-};
-
-struct RoughDielectricBsdf {
-    MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
-    double alpha_u = 0.1, alpha_v = 0.1;
-    double eta = 1.5046 / 1.000277;
-    Rgb specular_reflectance{1.0};
-    Rgb specular_transmittance{1.0};
-    bool energy_compensation = true;
-};
-
-/// Passes every ray straight on.
-struct NullBsdf {};
-
-using Bsdf = std::variant<DiffuseBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf,
-                          RoughConductorBsdf, RoughDielectricBsdf, NullBsdf>;
+#define BSDF_TYPE(name, Name, ...) , Name##Bsdf
+using Bsdf = VariantOf<void MATERIALS(BSDF_TYPE)>::Type; ///< its index is the MaterialKind
 
 struct Material {
     std::string id; ///< the author's id, or a made-up one ("bsdf 3")

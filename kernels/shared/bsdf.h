@@ -2,7 +2,7 @@
 
 FN BsdfEval bsdf_eval(Material m, vec3 wo, vec3 wi) {
     BsdfEval result = bsdf_eval_none();
-#define BSDF_EVAL_CASE(name, sides)                                                                \
+#define BSDF_EVAL_CASE(name, ...)                                                                  \
     if (HAS(bsdf_##name)) {                                                                        \
         Mask mine = m.kind == material_##name;                                                     \
         if (someLane(mine)) {                                                                      \
@@ -18,7 +18,7 @@ FN BsdfEval bsdf_eval(Material m, vec3 wo, vec3 wi) {
 /// u chooses the direction, u_lobe between reflection and transmission; all in [0, 1).
 FN BsdfSample bsdf_sample(Material m, vec3 wo, vec2 u, Real u_lobe) {
     BsdfSample result = bsdf_sample_none();
-#define BSDF_SAMPLE_CASE(name, sides)                                                              \
+#define BSDF_SAMPLE_CASE(name, ...)                                                                \
     if (HAS(bsdf_##name)) {                                                                        \
         Mask mine = m.kind == material_##name;                                                     \
         if (someLane(mine)) {                                                                      \

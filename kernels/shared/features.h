@@ -5,14 +5,10 @@
 #ifndef PARHELION_FEATURES_H
 #define PARHELION_FEATURES_H
 
+#include "shared/materials.h"
+
 // clang-format off
 #define GEOMETRIES(X) X(triangle) X(sphere) X(disk)
-
-// An opaque material answers for its upper side only and is turned over to be seen from below.
-#define MATERIALS(X)                                                                               \
-    X(diffuse, opaque) X(conductor, opaque) X(dielectric, transparent)                             \
-    X(thindielectric, transparent) X(roughconductor, opaque) X(roughdielectric, transparent)       \
-    X(null, transparent)
 
 // Rows of the light table. An area emitter has one row for each of its primitives.
 #define EMITTERS(X)                                                                                \
@@ -58,7 +54,7 @@
     X(aovs)
 // clang-format on
 
-#define FEATURE_MATERIAL(name, sides) feature_bsdf_##name,
+#define FEATURE_MATERIAL(name, ...) feature_bsdf_##name,
 #define FEATURE_EMITTER(name) feature_emitter_##name,
 #define FEATURE_GEOMETRY(name) feature_shape_##name,
 #define FEATURE_OTHER(name) feature_##name,
@@ -67,14 +63,6 @@ enum Feature {
         OTHER_FEATURES(FEATURE_OTHER) feature_count
 };
 
-#define KIND_MATERIAL(name, sides) material_##name,
-enum MaterialKind { MATERIALS(KIND_MATERIAL) material_kind_count };
-#define SIDES_opaque 1
-#define SIDES_transparent 0
-#define OPAQUE_BIT(name, sides) | (SIDES_##sides << material_##name)
-#define OPAQUE_MATERIALS (0 MATERIALS(OPAQUE_BIT)) // bit k: material kind k is opaque
-// Bit k: material kind k can let a ray go straight on, as if there were no surface.
-#define PASSING_MATERIALS ((1 << material_null) | (1 << material_thindielectric))
 #define KIND_EMITTER(name) emitter_##name,
 enum EmitterKind { EMITTERS(KIND_EMITTER) emitter_kind_count };
 #define KIND_GEOMETRY(name) geometry_##name,

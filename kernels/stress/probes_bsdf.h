@@ -5,7 +5,7 @@ FN ProbeOut out_sample(BsdfSample s) {
     return put1(put1(put3(out3(s.wi), 3, s.weight), 6, s.pdf), 7, s.eta);
 }
 
-#define BSDF_PROBE_FUNCTIONS(name, sides)                                                          \
+#define BSDF_PROBE_FUNCTIONS(name, ...)                                                            \
     FN ProbeOut probe_##name##_eval(ProbeIn i) {                                                   \
         return out_eval(bsdf_##name##_eval(in_Material(i, 0), in3(i, 16), in3(i, 19)));            \
     }                                                                                              \
@@ -34,7 +34,7 @@ FN ProbeOut probe_energy_place(ProbeIn i) {
 }
 FN ProbeOut probe_energy_gain(ProbeIn i) { return out3(energy_gain(in_tabulated(i), i.w[17])); }
 
-#define BSDF_PROBES(name, sides) PROBE(name##_eval, "mdd", 4) PROBE(name##_sample, "mduuu", 8)
+#define BSDF_PROBES(name, ...) PROBE(name##_eval, "mdd", 4) PROBE(name##_sample, "mduuu", 8)
 #define PROBES                                                                                     \
     MATERIALS(BSDF_PROBES)                                                                         \
     PROBE(any_bsdf_eval, "mdd", 4)                                                                 \

@@ -104,7 +104,7 @@ TEST_CASE("Bad samples are told apart by what went wrong", "[render]") {
     std::string fault = "emission";
     int bounce = 0;
     SECTION("more light than a number holds") {
-        scene.materials[1].bsdf = ConductorBsdf{Rgb(1), Rgb(1), Rgb(1, 1e38, 1)};
+        scene.materials[1].bsdf = ConductorBsdf{{Rgb(1), Rgb(1)}, Rgb(1, 1e38, 1)};
         scene.integrator.max_depth = 3;
         scene.emitters = {ConstantEmitter{Rgb(1e6)}};
         scene.integrator.emitter_samples = false;
@@ -115,7 +115,7 @@ TEST_CASE("Bad samples are told apart by what went wrong", "[render]") {
         fault = "camera_ray";
     }
     SECTION("a throughput") {
-        scene.materials[1].bsdf = ConductorBsdf{Rgb(1), Rgb(1), Rgb(none, 1, 1)};
+        scene.materials[1].bsdf = ConductorBsdf{{Rgb(1), Rgb(1)}, Rgb(none, 1, 1)};
         scene.integrator.max_depth = 3;
         scene.emitters = {ConstantEmitter{Rgb(1)}};
         scene.integrator.emitter_samples = false;

@@ -23,10 +23,12 @@ void change_meshes(Scene& scene, Change change) {
 }
 template<class Change>
 void change_rough(Scene& scene, Change change) {
-    for (Material& m : scene.materials) {
-        if (auto* b = std::get_if<RoughConductorBsdf>(&m.bsdf)) change(*b);
-        if (auto* b = std::get_if<RoughDielectricBsdf>(&m.bsdf)) change(*b);
-    }
+    for (Material& m : scene.materials)
+        std::visit(
+            [&](auto& b) {
+                if constexpr (requires { b.roughness; }) change(b.roughness);
+            },
+            m.bsdf);
 }
 /// All lights but those that `stays` says of have no power; what shines stays a surface.
 template<class Stays>
@@ -67,22 +69,25 @@ inline void set_vertex_uvs(Setup& s, bool on) {
 inline void set_back_materials(Setup& s, bool on) {
     for (Shape& shape : s.scene.shapes) {
         auto kind = static_cast<std::size_t>(shape.material_front) / 2;
-        bool opaque = shape.material_front == black_material || material_is_opaque[kind];
+        bool opaque = shape.material_front == black_material || is_opaque(kind);
         if (!on && opaque) shape.material_back = no_material;
     }
 }
 inline void set_ggx(Setup& s, bool on) {
     if (on) return;
     for (Material& m : s.scene.materials)
-        if (std::holds_alternative<RoughConductorBsdf>(m.bsdf) ||
-            std::holds_alternative<RoughDielectricBsdf>(m.bsdf))
+        if (std::visit(
+                [](const auto& b) {
+                    return requires { b.roughness; };
+                },
+                m.bsdf))
             m.bsdf = DiffuseBsdf{Rgb(0.4)};
 }
 inline void set_beckmann(Setup& s, bool on) {
-    if (!on) change_rough(s.scene, [](auto& b) { b.distribution = MicrofacetDistribution::ggx; });
+    if (!on) change_rough(s.scene, [](auto& r) { r.distribution = MicrofacetDistribution::ggx; });
 }
 inline void set_anisotropy(Setup& s, bool on) {
-    if (!on) change_rough(s.scene, [](auto& b) { b.alpha_v = b.alpha_u; });
+    if (!on) change_rough(s.scene, [](auto& r) { r.alpha_v = r.alpha_u; });
 }
 inline void set_energy_compensation(Setup& s, bool on) { set_energy_compensation(s.scene, on); }
 inline void set_faure(Setup& s, bool on) {

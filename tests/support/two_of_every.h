@@ -23,7 +23,7 @@ inline Bsdf example_diffuse(int which) {
     return DiffuseBsdf{which ? Rgb(0.2, 0.6, 0.3) : Rgb(0.6, 0.3, 0.1)};
 }
 inline Bsdf example_conductor(int which) {
-    return ConductorBsdf{Rgb(0.2, 0.9, 1.1), Rgb(3.9, 2.4, 2.2), Rgb(which ? 0.5 : 1.0)};
+    return ConductorBsdf{{Rgb(0.2, 0.9, 1.1), Rgb(3.9, 2.4, 2.2)}, Rgb(which ? 0.5 : 1.0)};
 }
 inline Bsdf example_dielectric(int which) {
     DielectricBsdf b;
@@ -36,30 +36,33 @@ inline Bsdf example_thindielectric(int which) {
     return b;
 }
 inline Bsdf example_roughconductor(int which) {
-    RoughConductorBsdf b{MicrofacetDistribution::beckmann, 0.3, 0.4, Rgb(0.2), Rgb(3.0), Rgb(0.9)};
-    if (which) b.distribution = MicrofacetDistribution::ggx, b.alpha_u = b.alpha_v = 0.5;
+    RoughConductorBsdf b{
+        {MicrofacetDistribution::beckmann, 0.3, 0.4}, {Rgb(0.2), Rgb(3.0)}, Rgb(0.9)};
+    if (which) b.roughness = {MicrofacetDistribution::ggx, 0.5, 0.5};
     return b;
 }
 inline Bsdf example_roughdielectric(int which) {
     RoughDielectricBsdf b;
-    b.distribution = which ? MicrofacetDistribution::beckmann : MicrofacetDistribution::ggx;
-    b.alpha_u = b.alpha_v = which ? 0.4 : 0.6;
+    b.roughness = {MicrofacetDistribution::ggx, 0.6, 0.6};
+    if (which) b.roughness = {MicrofacetDistribution::beckmann, 0.4, 0.4};
     return b;
 }
 inline Bsdf example_null(int) { return NullBsdf{}; }
 
 using Example = Bsdf (*)(int);
-#define EXAMPLE_MATERIAL(name, sides) example_##name,
+#define EXAMPLE_MATERIAL(name, ...) example_##name,
 inline constexpr std::array example_materials{MATERIALS(EXAMPLE_MATERIAL)};
-#define OPAQUE_MATERIAL(name, sides) SIDES_##sides,
-inline constexpr std::array material_is_opaque{MATERIALS(OPAQUE_MATERIAL)};
+inline bool is_opaque(std::size_t kind) { return (OPAQUE_MATERIALS >> kind) & 1; }
 
 /// Whether rough ones make up for what they scatter more than once; the tables for it take longer
 /// than a small image.
 inline void set_energy_compensation(Scene& scene, bool on) {
     for (Material& m : scene.materials) {
-        if (auto* b = std::get_if<RoughConductorBsdf>(&m.bsdf)) b->energy_compensation = on;
-        if (auto* b = std::get_if<RoughDielectricBsdf>(&m.bsdf)) b->energy_compensation = on;
+        std::visit(
+            [on](auto& b) {
+                if constexpr (requires { b.energy_compensation; }) b.energy_compensation = on;
+            },
+            m.bsdf);
     }
 }
 
@@ -192,7 +195,7 @@ inline void add_objects(Scene& scene) {
         int row = k / 7;
         glm::dvec3 at(-2.4 + 0.8 * (k % 7), -0.5 + 0.9 * row, -0.4 * row);
         auto make = example_shapes[static_cast<std::size_t>(k) % example_shapes.size()];
-        bool opaque = material_is_opaque[static_cast<std::size_t>(k / 2)] != 0;
+        bool opaque = is_opaque(static_cast<std::size_t>(k / 2));
         // Every other opaque one is black from behind.
         scene.shapes.push_back(shape_of(make(at, k % 2), k, opaque && k % 2 ? no_material : k));
     }

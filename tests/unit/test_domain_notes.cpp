@@ -40,8 +40,8 @@ TEST_CASE("Domain notes: roughness near 0 is taken as the least that is held", "
     for (const char* alpha : {"0", "1e-12", "1e-320"}) {
         const Scene scene = with_roughness("roughconductor", number("alpha", alpha));
         const auto& metal = std::get<RoughConductorBsdf>(scene.materials.front().bsdf);
-        CHECK(metal.alpha_u == 1e-9);
-        CHECK(metal.alpha_v == 1e-9);
+        CHECK(metal.roughness.alpha_u == 1e-9);
+        CHECK(metal.roughness.alpha_v == 1e-9);
         CHECK_THAT(notes_of(scene), Contains("scene.xml:2") && Contains("taken as 1e-09"));
     }
     const Scene scene = with_roughness("roughdielectric", number("alpha", "1e-9"));

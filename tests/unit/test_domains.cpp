@@ -118,9 +118,22 @@ void check_number(const NumberParameter& p, std::string_view plugin, const Tried
     }
 }
 
+/// By the lists of materials' parameters.
+bool has_microfacets(std::string_view plugin) {
+    bool found = false;
+#define IS_ROUGHNESS(Kind, ...)                                                                    \
+    found = found || std::is_same_v<parameter::Kind, parameter::Roughness>;
+#define ASK_MATERIAL(name, ...)                                                                    \
+    if (plugin == #name) {                                                                         \
+        PARAMETERS_##name(IS_ROUGHNESS)                                                            \
+    }
+    MATERIALS(ASK_MATERIAL)
+    return found;
+}
+
 /// What stands beside the number: once nothing, once what else decides what it does.
 std::vector<std::string> variants_of(std::string_view plugin) {
-    if (!mentions(plugin, "rough")) return {""};
+    if (!has_microfacets(plugin)) return {""};
     return {"", "<string name='distribution' value='ggx'/>"};
 }
 

@@ -113,7 +113,7 @@ TEST_CASE("Energy compensation: metals keep their average reflectance", "[energy
     CHECK(m.tg == Approx(0.5).epsilon(1e-6));
     CHECK(m.tb == 0);
     RoughConductorBsdf clear; // hemispherical reflectance of glass, closed form
-    clear.eta = Rgb(1.5), clear.k = Rgb(0);
+    clear.index = {Rgb(1.5), Rgb(0)};
     CHECK(material_record(clear).tr == Approx(0.0917779593423512).epsilon(1e-6));
 }
 

@@ -87,8 +87,10 @@ TEST_CASE("Tables: every conductor's index", "[tables]") {
         INFO(name);
         ConductorBsdf metal = conductor("<string name=\"material\" value=\"" + name + "\"/>");
         for (int c = 0; c < 3; c++) {
-            CHECK(metal.eta[c] == Approx(values[c].get<double>()).epsilon(2e-6).margin(1e-12));
-            CHECK(metal.k[c] == Approx(values[3 + c].get<double>()).epsilon(2e-6).margin(1e-12));
+            CHECK(metal.index.eta[c] ==
+                  Approx(values[c].get<double>()).epsilon(2e-6).margin(1e-12));
+            CHECK(metal.index.k[c] ==
+                  Approx(values[3 + c].get<double>()).epsilon(2e-6).margin(1e-12));
         }
     }
 }

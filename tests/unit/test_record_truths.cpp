@@ -228,9 +228,10 @@ TEST_CASE("Record truths: materials", "[truths]") {
     CHECK(diffuse.kind == material_diffuse);
     check_color(diffuse.r, diffuse.g, diffuse.b, reflected);
     for (bool rough : {false, true}) {
-        MaterialRecord m = rough ? material_record(RoughConductorBsdf{MicrofacetDistribution::ggx,
-                                                                      0.2, 0.3, eta, k, reflected})
-                                 : material_record(ConductorBsdf{eta, k, reflected});
+        MaterialRecord m = rough
+                               ? material_record(RoughConductorBsdf{
+                                     {MicrofacetDistribution::ggx, 0.2, 0.3}, {eta, k}, reflected})
+                               : material_record(ConductorBsdf{{eta, k}, reflected});
         CHECK(m.kind == (rough ? material_roughconductor : material_conductor));
         check_color(m.r, m.g, m.b, reflected);
         check_color(m.er, m.eg, m.eb, eta);
@@ -254,7 +255,7 @@ TEST_CASE("Record truths: materials", "[truths]") {
     const double n = 1.4;
     const Bsdf glasses[] = {
         DielectricBsdf{n, reflected, passed}, ThinDielectricBsdf{n, reflected, passed},
-        RoughDielectricBsdf{MicrofacetDistribution::beckmann, 0.1, 0.4, n, reflected, passed}};
+        RoughDielectricBsdf{{MicrofacetDistribution::beckmann, 0.1, 0.4}, n, reflected, passed}};
     const int kinds[] = {material_dielectric, material_thindielectric, material_roughdielectric};
     for (int i = 0; i < 3; i++) {
         MaterialRecord m = material_record(glasses[i]);

@@ -51,26 +51,26 @@ Integrator integrator_of(const std::string& plugin, const std::string& parameter
 TEST_CASE("scene plugins: bsdf defaults") {
     CHECK(bsdf_of<DiffuseBsdf>("diffuse").reflectance == Rgb(0.5));
     const auto conductor = bsdf_of<ConductorBsdf>("conductor");
-    CHECK(conductor.eta == Rgb(0.0));
-    CHECK(conductor.k == Rgb(1.0));
+    CHECK(conductor.index.eta == Rgb(0.0));
+    CHECK(conductor.index.k == Rgb(1.0));
     CHECK(conductor.specular_reflectance == Rgb(1.0));
     const auto dielectric = bsdf_of<DielectricBsdf>("dielectric");
     CHECK(dielectric.eta == 1.5046 / 1.000277);
     CHECK(dielectric.specular_transmittance == Rgb(1.0));
     CHECK(bsdf_of<ThinDielectricBsdf>("thindielectric").eta == 1.5046 / 1.000277);
     const auto rough = bsdf_of<RoughConductorBsdf>("roughconductor");
-    CHECK(rough.distribution == MicrofacetDistribution::beckmann);
-    CHECK(rough.alpha_u == 0.1);
-    CHECK(rough.alpha_v == 0.1);
-    CHECK(rough.k == Rgb(1.0));
+    CHECK(rough.roughness.distribution == MicrofacetDistribution::beckmann);
+    CHECK(rough.roughness.alpha_u == 0.1);
+    CHECK(rough.roughness.alpha_v == 0.1);
+    CHECK(rough.index.k == Rgb(1.0));
     CHECK(rough.energy_compensation);
     CHECK(bsdf_of<RoughDielectricBsdf>("roughdielectric").energy_compensation);
     const std::string plain = "<boolean name=\"energy_compensation\" value=\"false\"/>";
     CHECK(!bsdf_of<RoughConductorBsdf>("roughconductor", plain).energy_compensation);
     CHECK(!bsdf_of<RoughDielectricBsdf>("roughdielectric", plain).energy_compensation);
     const auto frosted = bsdf_of<RoughDielectricBsdf>("roughdielectric");
-    CHECK(frosted.distribution == MicrofacetDistribution::beckmann);
-    CHECK(frosted.alpha_u == 0.1);
+    CHECK(frosted.roughness.distribution == MicrofacetDistribution::beckmann);
+    CHECK(frosted.roughness.alpha_u == 0.1);
     CHECK(frosted.eta == 1.5046 / 1.000277);
     bsdf_of<NullBsdf>("null");
 }
@@ -86,21 +86,22 @@ TEST_CASE("scene plugins: bsdf parameters") {
     CHECK(glass.specular_transmittance == Rgb(0.25, 0.5, 0.75));
     const auto gold =
         bsdf_of<ConductorBsdf>("conductor", "<string name=\"material\" value=\"Au\"/>");
-    CHECK(gold.eta.x == Approx(0.143035978));
-    CHECK(gold.k.z == Approx(1.60335922));
-    CHECK(bsdf_of<ConductorBsdf>("conductor", "<string name=\"material\" value=\"none\"/>").k ==
-          Rgb(1.0));
+    CHECK(gold.index.eta.x == Approx(0.143035978));
+    CHECK(gold.index.k.z == Approx(1.60335922));
+    CHECK(
+        bsdf_of<ConductorBsdf>("conductor", "<string name=\"material\" value=\"none\"/>").index.k ==
+        Rgb(1.0));
     const auto metal = bsdf_of<RoughConductorBsdf>(
         "roughconductor", "<string name=\"distribution\" value=\"ggx\"/>"
                           "<float name=\"alpha_u\" value=\"0.2\"/>"
                           "<float name=\"alpha_v\" value=\"0.3\"/>"
                           "<rgb name=\"eta\" value=\"1.5 2 3\"/><float name=\"k\" value=\"2\"/>"
                           "<boolean name=\"sample_visible\" value=\"false\"/>");
-    CHECK(metal.distribution == MicrofacetDistribution::ggx);
-    CHECK(metal.alpha_u == 0.2);
-    CHECK(metal.alpha_v == 0.3);
-    CHECK(metal.eta == Rgb(1.5, 2, 3));
-    CHECK(metal.k == Rgb(2));
+    CHECK(metal.roughness.distribution == MicrofacetDistribution::ggx);
+    CHECK(metal.roughness.alpha_u == 0.2);
+    CHECK(metal.roughness.alpha_v == 0.3);
+    CHECK(metal.index.eta == Rgb(1.5, 2, 3));
+    CHECK(metal.index.k == Rgb(2));
 }
 
 TEST_CASE("scene plugins: the two sides of a surface") {

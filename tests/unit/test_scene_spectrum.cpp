@@ -89,9 +89,9 @@ TEST_CASE("scene spectrum: indices of refraction have no upper bound") {
                   "<spectrum name=\"eta\" value=\"400:1.5,700:1.5\"/>"
                   "<spectrum name=\"k\" value=\"400:2,500:3,600:4,700:5\"/></bsdf></shape>");
     const auto& bsdf = std::get<ConductorBsdf>(scene.materials.at(0).bsdf);
-    check_color(bsdf.eta, {1.4930130243301392, 1.4996346235275269, 1.492363691329956},
+    check_color(bsdf.index.eta, {1.4930130243301392, 1.4996346235275269, 1.492363691329956},
                 2 * float_tolerance);
-    check_color(bsdf.k, {4.403128623962402, 3.428879499435425, 2.397944450378418},
+    check_color(bsdf.index.k, {4.403128623962402, 3.428879499435425, 2.397944450378418},
                 4 * float_tolerance);
 }
 

@@ -8,7 +8,7 @@ using namespace parhelion;
 using namespace parhelion::numerics;
 
 // Kinds of nothing but delta lobes have no density to follow.
-#define DENSITY_TEST(label, sides)                                                                 \
+#define DENSITY_TEST(label, ...)                                                                   \
     TEST_CASE("Materials: a density or delta lobes, " #label, "[bsdf]") {                          \
         CHECK(configurations(material_##label, false).empty() !=                                   \
               configurations(material_##label, true).empty());                                     \

@@ -60,23 +60,40 @@ double read_index(Properties& p, std::string_view name, double missing) {
     p.refuse_value(name, in_quotes(wanted), "a number, or one of " + names_of(named_indices));
 }
 
-double read_relative_index(Properties& p) {
+// One function a kind of parameter: its value, `missing` where the file has none.
+
+Rgb read(parameter::Color, Properties& p, std::string_view name, const Rgb& missing) {
+    return p.color(name, missing, SpectrumUse::reflectance);
+}
+
+[[maybe_unused]] double read(parameter::Number, Properties& p, std::string_view name,
+                             double missing) {
+    return p.number(name, missing);
+}
+
+bool read(parameter::Flag, Properties& p, std::string_view name, bool missing) {
+    return p.boolean(name, missing);
+}
+
+double read(parameter::Index, Properties& p, std::string_view, double) {
     const double inside = read_index(p, "int_ior", 1.5046);
     return inside / read_index(p, "ext_ior", 1.000277);
 }
 
-Rgb read_specular(Properties& p, const char* name) {
-    return p.color(name, Rgb(1.0), SpectrumUse::reflectance);
+double read(parameter::SeparateIndex, Properties& p, std::string_view name, double missing) {
+    const double eta = read(parameter::Index{}, p, name, missing);
+    // The nearer, the narrower the lobe of refraction: the energy table is too coarse for less.
+    constexpr double nearest = 1.003;
+    if (std::max(eta, 1.0 / eta) < nearest)
+        p.refuse_value("int_ior", fmt::format("{} times \"ext_ior\"", eta),
+                       fmt::format("two indices, one {} times the other or more", nearest));
+    return eta;
 }
 
-struct ComplexIndex {
-    Rgb eta{0.0}, k{1.0}; ///< reflects everything, which is what Mitsuba 3 does by default
-};
-
-ComplexIndex read_complex_index(Properties& p) {
+parameter::ComplexIndex::Value read(parameter::ComplexIndex, Properties& p, std::string_view,
+                                    parameter::ComplexIndex::Value index) {
     const bool spectra = p.has("eta") || p.has("k");
     if (!p.has("material")) {
-        ComplexIndex index;
         index.eta = p.color("eta", index.eta, SpectrumUse::unbounded);
         index.k = p.color("k", index.k, SpectrumUse::unbounded);
         return index;
@@ -89,12 +106,8 @@ ComplexIndex read_complex_index(Properties& p) {
     p.refuse_value("material", in_quotes(wanted), names_of(conductor_presets));
 }
 
-struct Roughness {
-    MicrofacetDistribution distribution;
-    double alpha_u, alpha_v;
-};
-
-Roughness read_roughness(Properties& p) {
+parameter::Roughness::Value read(parameter::Roughness, Properties& p, std::string_view,
+                                 const parameter::Roughness::Value& missing) {
     const std::size_t kind = p.choice("distribution", "beckmann", {"beckmann", "ggx"});
     const MicrofacetDistribution distribution =
         kind == 0 ? MicrofacetDistribution::beckmann : MicrofacetDistribution::ggx;
@@ -103,7 +116,7 @@ Roughness read_roughness(Properties& p) {
         p.note("sample_visible", "\"sample_visible\" is taken as true; only the noise differs");
     const bool split = p.has("alpha_u") || p.has("alpha_v");
     if (!split) {
-        const double alpha = p.number("alpha", 0.1);
+        const double alpha = p.number("alpha", missing.alpha_u);
         return {distribution, alpha, alpha};
     }
     if (p.has("alpha"))
@@ -113,80 +126,41 @@ Roughness read_roughness(Properties& p) {
     return {distribution, alpha_u, p.required_number("alpha_v")};
 }
 
-/// Our own, not Mitsuba's: false for the lobe of single scattering alone.
-constexpr const char* energy_compensation = "energy_compensation";
-
 /// Measured in white furnaces (docs/accuracy.md): where the energy table is too coarse. `rougher`
 /// is what the larger roughness may be.
-void note_compensation(Properties& p, const Roughness& r, double rougher) {
+void note_compensation(Properties& p, const parameter::Roughness::Value& r, double rougher) {
     constexpr double ratio = 10.0;
     const auto [low, high] = std::minmax(r.alpha_u, r.alpha_v);
     if (low == high || (high <= ratio * low && high <= rougher)) return;
-    if (!p.boolean(energy_compensation, true)) return;
     p.note("alpha_u", fmt::format("energy compensation is off by more than 0.3 % where "
                                   "\"alpha_u\" and \"alpha_v\" differ more than {} times, or one "
                                   "is above {}",
                                   ratio, rougher));
 }
 
-Bsdf read_diffuse(Properties& p) {
-    return DiffuseBsdf{p.color("reflectance", Rgb(0.5), SpectrumUse::reflectance)};
+/// What is said of several parameters of a kind together; of most nothing.
+void note_together(const Properties&, const auto&) {}
+
+void note_together(Properties& p, const RoughConductorBsdf& b) {
+    if (b.energy_compensation) note_compensation(p, b.roughness, 1.0);
 }
 
-Bsdf read_conductor(Properties& p) {
-    const ComplexIndex index = read_complex_index(p);
-    return ConductorBsdf{index.eta, index.k, read_specular(p, "specular_reflectance")};
+void note_together(Properties& p, const RoughDielectricBsdf& b) {
+    if (b.energy_compensation) note_compensation(p, b.roughness, 0.3);
 }
 
-Bsdf read_dielectric(Properties& p) {
-    const double eta = read_relative_index(p);
-    return DielectricBsdf{eta, read_specular(p, "specular_reflectance"),
-                          read_specular(p, "specular_transmittance")};
-}
-
-Bsdf read_thin_dielectric(Properties& p) {
-    const double eta = read_relative_index(p);
-    return ThinDielectricBsdf{eta, read_specular(p, "specular_reflectance"),
-                              read_specular(p, "specular_transmittance")};
-}
-
-Bsdf read_rough_conductor(Properties& p) {
-    const Roughness r = read_roughness(p);
-    const ComplexIndex index = read_complex_index(p);
-    note_compensation(p, r, 1.0);
-    return RoughConductorBsdf{r.distribution,
-                              r.alpha_u,
-                              r.alpha_v,
-                              index.eta,
-                              index.k,
-                              read_specular(p, "specular_reflectance"),
-                              p.boolean(energy_compensation, true)};
-}
-
-Bsdf read_rough_dielectric(Properties& p) {
-    const Roughness r = read_roughness(p);
-    const double eta = read_relative_index(p);
-    // The nearer, the narrower the lobe of refraction: the energy table is too coarse for less.
-    constexpr double nearest = 1.003;
-    if (std::max(eta, 1.0 / eta) < nearest)
-        p.refuse_value("int_ior", fmt::format("{} times \"ext_ior\"", eta),
-                       fmt::format("two indices, one {} times the other or more", nearest));
-    note_compensation(p, r, 0.3);
-    return RoughDielectricBsdf{r.distribution,
-                               r.alpha_u,
-                               r.alpha_v,
-                               eta,
-                               read_specular(p, "specular_reflectance"),
-                               read_specular(p, "specular_transmittance"),
-                               p.boolean(energy_compensation, true)};
-}
-
-Bsdf read_null(Properties&) { return NullBsdf{}; }
+#define READ_PARAMETER(Kind, name, ...) b.name = read(parameter::Kind{}, p, #name, b.name);
+#define BSDF_READER(name, Name, ...)                                                               \
+    Bsdf read_##name(Properties& p) {                                                              \
+        Name##Bsdf b;                                                                              \
+        PARAMETERS_##name(READ_PARAMETER);                                                         \
+        note_together(p, b);                                                                       \
+        return b;                                                                                  \
+    }
+MATERIALS(BSDF_READER)
 
 SurfaceMaterials::Back back_of(const Bsdf& bsdf) {
-    const bool one_sided = std::holds_alternative<DiffuseBsdf>(bsdf) ||
-                           std::holds_alternative<ConductorBsdf>(bsdf) ||
-                           std::holds_alternative<RoughConductorBsdf>(bsdf);
+    const bool one_sided = (OPAQUE_MATERIALS >> bsdf.index()) & 1;
     return one_sided ? SurfaceMaterials::Back::black : SurfaceMaterials::Back::same;
 }
 
@@ -216,14 +190,9 @@ SurfaceMaterials read_two_sided(Properties& p, const Document& document, Notes& 
 
 using BsdfReader = Bsdf (*)(Properties&);
 
-constexpr PluginTable<BsdfReader, 8> bsdf_plugins = {{{"diffuse", read_diffuse},
-                                                      {"conductor", read_conductor},
-                                                      {"dielectric", read_dielectric},
-                                                      {"thindielectric", read_thin_dielectric},
-                                                      {"roughconductor", read_rough_conductor},
-                                                      {"roughdielectric", read_rough_dielectric},
-                                                      {"null", read_null},
-                                                      {"twosided", nullptr}}};
+#define BSDF_PLUGIN(name, ...) {#name, read_##name},
+constexpr PluginTable<BsdfReader, material_kind_count + 1> bsdf_plugins = {
+    {MATERIALS(BSDF_PLUGIN){"twosided", nullptr}}};
 
 } // namespace
 

@@ -2,11 +2,14 @@
 #include "host/scene/mitsuba/number_parameters.h"
 
 #include "host/scene/limits.h"
+#include "host/scene/parameter.h"
 #include "host/scene/text.h"
+#include "kernels/shared/materials.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace parhelion::mitsuba {
 
@@ -37,28 +40,66 @@ constexpr Domain half_angle = strictly_between(0, 180).in("degrees");
 
 constexpr Domain wavelength = between(1e-3, 1e9).in("nanometres");
 
-constexpr std::string_view dielectrics = "dielectric thindielectric roughdielectric";
 constexpr std::string_view power = "a power that single precision holds in the scene's unit";
-constexpr std::string_view cameras = "perspective thinlens";
-constexpr std::string_view samplers = "independent stratified multijitter orthogonal ldsampler";
+constexpr const char* cameras = "perspective thinlens";
+constexpr const char* samplers = "independent stratified multijitter orthogonal ldsampler";
 
-constexpr NumberParameter parameters[] = {
-    {"bsdf", "diffuse", "reflectance", color, share},
-    {"bsdf", "conductor roughconductor", "eta", color, complex_index},
-    {"bsdf", "conductor roughconductor", "k", color, complex_index},
-    {"bsdf", "conductor roughconductor dielectric thindielectric roughdielectric",
-     "specular_reflectance", color, share},
-    {"bsdf", dielectrics, "specular_transmittance", color, share},
-    {"bsdf", dielectrics, "int_ior", real, refractive_index,
-     "roughdielectric: 1.003 times ext_ior or more, or less than it by as much"},
-    {"bsdf", dielectrics, "ext_ior", real, refractive_index},
-    {"bsdf", "roughconductor", "alpha", real, metal_roughness},
-    {"bsdf", "roughconductor", "alpha_u", real, metal_roughness},
-    {"bsdf", "roughconductor", "alpha_v", real, metal_roughness},
-    {"bsdf", "roughdielectric", "alpha", real, glass_roughness},
-    {"bsdf", "roughdielectric", "alpha_u", real, glass_roughness},
-    {"bsdf", "roughdielectric", "alpha_v", real, glass_roughness},
+// What numbers a parameter of a material is in files (host/scene/parameter.h).
 
+struct MaterialNumber {
+    std::string_view name;
+    NumberForm form;
+    std::string_view also{};
+};
+using MaterialNumbers = std::vector<MaterialNumber>;
+
+MaterialNumbers numbers(parameter::Color, std::string_view name) { return {{name, color}}; }
+[[maybe_unused]] MaterialNumbers numbers(parameter::Number, std::string_view name) {
+    return {{name, real}};
+}
+MaterialNumbers numbers(parameter::Flag, std::string_view) { return {}; }
+MaterialNumbers numbers(parameter::Index, std::string_view) {
+    return {{"int_ior", real}, {"ext_ior", real}};
+}
+MaterialNumbers numbers(parameter::SeparateIndex, std::string_view) {
+    return {{"int_ior", real, "1.003 times ext_ior or more, or less than it by as much"},
+            {"ext_ior", real}};
+}
+MaterialNumbers numbers(parameter::ComplexIndex, std::string_view) {
+    return {{"eta", color}, {"k", color}};
+}
+MaterialNumbers numbers(parameter::Roughness, std::string_view) {
+    return {{"alpha", real}, {"alpha_u", real}, {"alpha_v", real}};
+}
+
+/// Kinds that have the same number share a row.
+void add(std::vector<NumberParameter>& rows, std::string_view plugin, const MaterialNumber& number,
+         const Domain& domain) {
+    for (NumberParameter& row : rows)
+        if (row.name == number.name && row.form == number.form && row.also == number.also &&
+            row.domain == domain) {
+            row.plugins += " " + std::string(plugin);
+            return;
+        }
+    rows.push_back({"bsdf", std::string(plugin), number.name, number.form, domain, number.also});
+}
+
+/// Of all materials, from their lists.
+std::vector<NumberParameter> material_parameters() {
+    std::vector<NumberParameter> rows;
+#define ADD_NUMBERS(Kind, name, missing, domain, ...)                                              \
+    for (const MaterialNumber& number : numbers(parameter::Kind{}, #name))                         \
+        add(rows, plugin, number, Domain(domain));
+#define ADD_MATERIAL(name, ...)                                                                    \
+    {                                                                                              \
+        [[maybe_unused]] constexpr std::string_view plugin = #name;                                \
+        PARAMETERS_##name(ADD_NUMBERS)                                                             \
+    }
+    MATERIALS(ADD_MATERIAL)
+    return rows;
+}
+
+const NumberParameter other_parameters[] = {
     {"emitter", "area constant", "radiance", color, radiometric, power},
     {"emitter", "point spot", "intensity", color, radiometric, power},
     {"emitter", "directional", "irradiance", color, radiometric, power},
@@ -130,11 +171,18 @@ bool has_plugin(const NumberParameter& parameter, std::string_view plugin) {
 
 } // namespace
 
-std::span<const NumberParameter> number_parameters() { return parameters; }
+std::span<const NumberParameter> number_parameters() {
+    static const std::vector<NumberParameter> parameters = [] {
+        std::vector<NumberParameter> all = material_parameters();
+        all.insert(all.end(), std::begin(other_parameters), std::end(other_parameters));
+        return all;
+    }();
+    return parameters;
+}
 
 const NumberParameter& number_parameter(std::string_view tag, std::string_view plugin,
                                         std::string_view name) {
-    for (const NumberParameter& parameter : parameters)
+    for (const NumberParameter& parameter : number_parameters())
         if (parameter.tag == tag && parameter.name == name && has_plugin(parameter, plugin))
             return parameter;
     throw std::logic_error(std::string(tag) + " " + std::string(plugin) + " has a number " +

@@ -7,6 +7,7 @@
 #include "host/domain.h"
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace parhelion::mitsuba {
@@ -23,7 +24,7 @@ enum class NumberForm {
 
 struct NumberParameter {
     std::string_view tag;     ///< "bsdf"; "transform": of its elements
-    std::string_view plugins; ///< those of the tag that have it, between blanks
+    std::string plugins;  ///< those of the tag that have it, between blanks
     std::string_view name;
     NumberForm form;
     Domain domain;

@@ -1,0 +1,59 @@
+// What a parameter of a plugin can be, and the value that it gives: the words of the lists in
+// kernels/shared/materials.h.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace parhelion {
+
+using Rgb =
+    glm::dvec3; ///< linear sRGB primaries, D65 white; radiometric unit given where it is used
+
+enum class MicrofacetDistribution { ggx, beckmann };
+
+namespace parameter {
+
+/// A colour or spectrum, reduced to RGB.
+struct Color {
+    using Value = Rgb;
+};
+
+struct Number {
+    using Value = double;
+};
+
+struct Flag {
+    using Value = bool;
+};
+
+/// Interior index of refraction over the exterior one: `int_ior`, `ext_ior`, numbers or names.
+struct Index {
+    using Value = double;
+};
+
+/// An index of a rough interface, whose two sides must differ.
+struct SeparateIndex {
+    using Value = double;
+};
+
+/// Index of a conductor relative to the exterior medium: `eta` and `k`, or the name of a
+/// `material`.
+struct ComplexIndex {
+    struct Value {
+        Rgb eta{0.0}, k{1.0}; ///< reflects everything, which is what Mitsuba 3 does by default
+    };
+};
+
+/// Of microfacets: `distribution`, `alpha` or `alpha_u` and `alpha_v`.
+struct Roughness {
+    struct Value {
+        MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
+        double alpha_u = 0.1, alpha_v = 0.1;
+    };
+};
+
+} // namespace parameter
+
+inline constexpr double glass_in_air = 1.5046 / 1.000277; ///< relative index of BK7
+
+} // namespace parhelion

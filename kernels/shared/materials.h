@@ -1,0 +1,68 @@
+// The list of materials, and of each the parameters that scene files give it.
+//
+// From here come the kinds and their features, the structs of the host (host/scene/scene.h), what
+// reads them from files and where their numbers may lie, what packs them for the device, and the
+// examples and pages made from all of these. The BSDF itself is in bsdf_<name>.h.
+#ifndef PARHELION_MATERIALS_H
+#define PARHELION_MATERIALS_H
+
+// clang-format off
+
+// Name in files, the host's struct (<Name>Bsdf), what it does with light from below:
+//   opaque       nothing: it answers for its upper side, and is turned over to be seen from below
+//   transparent  it answers for both sides
+//   passing      so, and it can let a ray go straight on, as if there were no surface
+#define MATERIALS(X)                                                                               \
+    X(diffuse, Diffuse, opaque)                                                                    \
+    X(conductor, Conductor, opaque)                                                                \
+    X(dielectric, Dielectric, transparent)                                                         \
+    X(thindielectric, ThinDielectric, passing)                                                     \
+    X(roughconductor, RoughConductor, opaque)                                                      \
+    X(roughdielectric, RoughDielectric, transparent)                                               \
+    X(null, Null, passing)
+
+// Parameters: what it is (host/scene/parameter.h), name, value of one that is missing, where its numbers may lie
+// (a domain of host/scene/mitsuba/number_parameters.cpp, or one in brackets), what it becomes in a MaterialRecord: one of
+// its words, or several (set_<x> of host/flatten/material_records.cpp).
+#define PARAMETERS_diffuse(X)                                                                      \
+    X(Color, reflectance, 0.5, share, reflectance)
+
+#define PARAMETERS_conductor(X)                                                                    \
+    X(ComplexIndex, index, , complex_index, conductor)                                             \
+    X(Color, specular_reflectance, 1.0, share, reflectance)
+
+#define PARAMETERS_dielectric(X)                                                                   \
+    X(Index, eta, glass_in_air, refractive_index, interface)                                       \
+    X(Color, specular_reflectance, 1.0, share, reflectance)                                        \
+    X(Color, specular_transmittance, 1.0, share, transmittance)
+
+#define PARAMETERS_thindielectric(X) PARAMETERS_dielectric(X)
+
+#define PARAMETERS_roughconductor(X)                                                               \
+    X(Roughness, roughness, , metal_roughness, roughness)                                          \
+    PARAMETERS_conductor(X)                                                                        \
+    X(Flag, energy_compensation, true, , nothing)
+
+#define PARAMETERS_roughdielectric(X)                                                              \
+    X(Roughness, roughness, , glass_roughness, roughness)                                          \
+    X(SeparateIndex, eta, glass_in_air, refractive_index, interface)                               \
+    X(Color, specular_reflectance, 1.0, share, reflectance)                                        \
+    X(Color, specular_transmittance, 1.0, share, transmittance)                                    \
+    X(Flag, energy_compensation, true, , nothing)
+
+#define PARAMETERS_null(X)
+// clang-format on
+
+#define KIND_MATERIAL(name, ...) material_##name,
+enum MaterialKind { MATERIALS(KIND_MATERIAL) material_kind_count };
+
+// Bit k: material kind k is so.
+#define SIDES_opaque 1
+#define SIDES_transparent 2
+#define SIDES_passing 4
+#define OPAQUE_BIT(name, Name, sides) | ((SIDES_##sides == 1) << material_##name)
+#define PASSING_BIT(name, Name, sides) | ((SIDES_##sides == 4) << material_##name)
+#define OPAQUE_MATERIALS (0 MATERIALS(OPAQUE_BIT))
+#define PASSING_MATERIALS (0 MATERIALS(PASSING_BIT))
+
+#endif
