@@ -2,7 +2,7 @@
 #include "benchmarks/native/triangle_scene.h"
 
 #include "host/error.h"
-#include "host/scene/mesh_obj.h"
+#include "host/scene/meshes/mesh_obj.h"
 #include "kernels/shared/features.h"
 
 #include <algorithm>

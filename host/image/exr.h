@@ -1,10 +1,10 @@
 // OpenEXR files: reading what a comparison or texture needs, writing what the renderer makes.
 #pragma once
 
+#include "host/image/component_format.h"
 #include "host/image/image.h"
 #include "host/image/misfits.h"
 #include "host/image/output.h"
-#include "host/scene/scene.h"
 
 #include <string>
 #include <string_view>

@@ -4,7 +4,7 @@
 #include "tests/support/traversal.h"
 
 #include "host/numerics/shapes.h"
-#include "host/scene/mesh_obj.h"
+#include "host/scene/meshes/mesh_obj.h"
 #include "tests/support/skip.h"
 
 #include <filesystem>

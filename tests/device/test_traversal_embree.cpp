@@ -3,7 +3,7 @@
 #include "tests/support/traversal.h"
 
 #include "host/numerics/shapes.h"
-#include "host/scene/mesh_obj.h"
+#include "host/scene/meshes/mesh_obj.h"
 #include "tests/support/skip.h"
 
 #include <embree3/rtcore.h>

@@ -1,5 +1,5 @@
 // Wavefront OBJ meshes.
-#include "host/scene/mesh_obj.h"
+#include "host/scene/meshes/mesh_obj.h"
 #include "property.h"
 #include "targets.h"
 

@@ -1,5 +1,5 @@
 // Stanford PLY meshes, text and binary.
-#include "host/scene/mesh_ply.h"
+#include "host/scene/meshes/mesh_ply.h"
 #include "property.h"
 #include "targets.h"
 

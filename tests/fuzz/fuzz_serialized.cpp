@@ -1,6 +1,6 @@
 // Mitsuba's serialized meshes. Mutated bytes hardly ever inflate, so an input is also taken for the
 // inflated content of a mesh, which is put behind the start of a file without compressing it.
-#include "host/scene/mesh_serialized.h"
+#include "host/scene/meshes/mesh_serialized.h"
 #include "property.h"
 #include "targets.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/error.h"
-#include "host/scene/mesh_data.h"
+#include "host/scene/meshes/mesh_data.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -91,8 +91,8 @@ forbidden_includes=(
 
 # Rooms of the host, lowest first: a folder, then the others that it may include. What lies in host itself knows none.
 host_rooms=(
-    "scene"
-    "image scene"
+    "image"
+    "scene image"
     "cl"
     "bvh"
     "flatten scene bvh"

@@ -1,9 +1,9 @@
 // What every mesh format accepts, leaves out with a note, and refuses: the same in all of them.
 #include "test_mesh_tools.h"
 
-#include "host/scene/mesh_obj.h"
-#include "host/scene/mesh_ply.h"
-#include "host/scene/mesh_serialized.h"
+#include "host/scene/meshes/mesh_obj.h"
+#include "host/scene/meshes/mesh_ply.h"
+#include "host/scene/meshes/mesh_serialized.h"
 
 #include <glm/geometric.hpp>
 

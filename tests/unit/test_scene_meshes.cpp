@@ -1,9 +1,9 @@
 // Mesh files: OBJ, PLY and Mitsuba's serialized format, good ones and damaged ones.
 #include "test_mesh_tools.h"
 
-#include "host/scene/mesh_obj.h"
-#include "host/scene/mesh_ply.h"
-#include "host/scene/mesh_serialized.h"
+#include "host/scene/meshes/mesh_obj.h"
+#include "host/scene/meshes/mesh_ply.h"
+#include "host/scene/meshes/mesh_serialized.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,9 +2,9 @@
 // numbers.
 #include "test_mesh_tools.h"
 
-#include "host/scene/data_text.h"
-#include "host/scene/mesh_obj.h"
-#include "host/scene/obj_keywords.h"
+#include "host/scene/meshes/data_text.h"
+#include "host/scene/meshes/mesh_obj.h"
+#include "host/scene/meshes/obj_keywords.h"
 
 #include <glm/geometric.hpp>
 

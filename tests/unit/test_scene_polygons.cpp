@@ -1,6 +1,6 @@
 // Faces cut into triangles: areas against the shoelace formula (Meister 1769), outlines against the
 // edges of the triangles.
-#include "host/scene/polygon.h"
+#include "host/scene/meshes/polygon.h"
 #include "test_scene_tools.h"
 
 #include <glm/geometric.hpp>

@@ -23,7 +23,7 @@ enum class NumberForm {
 };
 
 struct NumberParameter {
-    std::string_view tag;     ///< "bsdf"; "transform": of its elements
+    std::string_view tag; ///< "bsdf"; "transform": of its elements
     std::string plugins;  ///< those of the tag that have it, between blanks
     std::string_view name;
     NumberForm form;

@@ -1,8 +1,8 @@
 // The shape plugins.
-#include "host/scene/mesh_data.h"
-#include "host/scene/mesh_obj.h"
-#include "host/scene/mesh_ply.h"
-#include "host/scene/mesh_serialized.h"
+#include "host/scene/meshes/mesh_data.h"
+#include "host/scene/meshes/mesh_obj.h"
+#include "host/scene/meshes/mesh_ply.h"
+#include "host/scene/meshes/mesh_serialized.h"
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"

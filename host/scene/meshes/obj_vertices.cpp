@@ -1,5 +1,5 @@
 // The lines of an OBJ file that hold vertices; the faces are read after all of them.
-#include "host/scene/obj_vertices.h"
+#include "host/scene/meshes/obj_vertices.h"
 
 #include "host/scene/text.h"
 

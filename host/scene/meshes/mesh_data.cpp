@@ -1,5 +1,5 @@
 // A mesh as its file holds it, and what turns it into a Mesh of the scene.
-#include "host/scene/mesh_data.h"
+#include "host/scene/meshes/mesh_data.h"
 
 #include "host/scene/text.h"
 

@@ -1,7 +1,7 @@
 // The numbers of a PLY file, as text or as bytes of either order.
 #pragma once
 
-#include "host/scene/ply_header.h"
+#include "host/scene/meshes/ply_header.h"
 
 #include <limits>
 #include <string_view>

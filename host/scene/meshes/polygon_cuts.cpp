@@ -2,7 +2,7 @@
 // of the corner, the place of the hit and the end of the edge hit, the corner next to the ray is
 // seen from the first one. Every diagonal is then tested with bounds on rounding, so that a wrong
 // guess costs a try and nothing else.
-#include "host/scene/polygon_pieces.h"
+#include "host/scene/meshes/polygon_pieces.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,7 +1,7 @@
 // Stanford PLY meshes, text and binary.
 #pragma once
 
-#include "host/scene/mesh_data.h"
+#include "host/scene/meshes/mesh_data.h"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 // Faces of more than three corners: which triangles cover them.
-#include "host/scene/polygon.h"
+#include "host/scene/meshes/polygon.h"
 
-#include "host/scene/polygon_pieces.h"
+#include "host/scene/meshes/polygon_pieces.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Where vertices and faces of every kind of mesh file meet: what all of them accept, leave out with
 // a note, and refuse.
-#include "host/scene/mesh_builder.h"
+#include "host/scene/meshes/mesh_builder.h"
 
-#include "host/scene/polygon.h"
+#include "host/scene/meshes/polygon.h"
 #include "host/scene/text.h"
 
 #include <glm/geometric.hpp>

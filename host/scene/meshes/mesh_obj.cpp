@@ -3,11 +3,11 @@
 // Why a reader of our own: the library that Debian has for it (tinyobjloader 2.0) counts the
 // corners of a face in a byte, rounds numbers several times, and reads as 0 or not at all what it
 // does not know; keeping that from it took more than reading.
-#include "host/scene/mesh_obj.h"
+#include "host/scene/meshes/mesh_obj.h"
 
 #include "host/scene/file_finder.h"
-#include "host/scene/mesh_builder.h"
-#include "host/scene/obj_vertices.h"
+#include "host/scene/meshes/mesh_builder.h"
+#include "host/scene/meshes/obj_vertices.h"
 #include "host/scene/text.h"
 
 #include <array>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/error.h"
-#include "host/scene/data_text.h"
-#include "host/scene/obj_keywords.h"
+#include "host/scene/meshes/data_text.h"
+#include "host/scene/meshes/obj_keywords.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -1,7 +1,7 @@
 // The numbers of a PLY file, as text or as bytes of either order.
-#include "host/scene/ply_data.h"
+#include "host/scene/meshes/ply_data.h"
 
-#include "host/scene/data_text.h"
+#include "host/scene/meshes/data_text.h"
 #include "host/scene/text.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Polygons in the plane: cut at diagonals into pieces, and those into triangles.
 #pragma once
 
-#include "host/scene/polygon.h"
+#include "host/scene/meshes/polygon.h"
 
 namespace parhelion {
 

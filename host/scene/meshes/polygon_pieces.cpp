@@ -1,5 +1,5 @@
 // Polygons in the plane to triangles, by the tessellator of GLU.
-#include "host/scene/polygon_pieces.h"
+#include "host/scene/meshes/polygon_pieces.h"
 
 #include <GL/glu.h>
 #include <glm/geometric.hpp>

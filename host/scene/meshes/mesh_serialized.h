@@ -1,7 +1,7 @@
 // Mitsuba's own compressed mesh files (.serialized, versions 3 and 4).
 #pragma once
 
-#include "host/scene/mesh_data.h"
+#include "host/scene/meshes/mesh_data.h"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 // The header of a PLY file: which elements with which properties follow, in which encoding.
-#include "host/scene/ply_header.h"
+#include "host/scene/meshes/ply_header.h"
 
-#include "host/scene/data_text.h"
+#include "host/scene/meshes/data_text.h"
 #include "host/scene/text.h"
 
 #include <algorithm>

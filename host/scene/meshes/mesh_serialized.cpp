@@ -1,8 +1,8 @@
 // Mitsuba's own compressed mesh files (.serialized, versions 3 and 4).
-#include "host/scene/mesh_serialized.h"
+#include "host/scene/meshes/mesh_serialized.h"
 
 #include "host/scene/file_finder.h"
-#include "host/scene/mesh_builder.h"
+#include "host/scene/meshes/mesh_builder.h"
 #include "host/scene/text.h"
 
 #include <zlib.h>

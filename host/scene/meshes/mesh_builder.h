@@ -2,7 +2,7 @@
 // a note, and refuse.
 #pragma once
 
-#include "host/scene/mesh_data.h"
+#include "host/scene/meshes/mesh_data.h"
 
 #include <cstdint>
 #include <span>

@@ -1,5 +1,5 @@
 // Text files of data, in whatever encoding and with whatever ends of lines programs write them.
-#include "host/scene/data_text.h"
+#include "host/scene/meshes/data_text.h"
 
 #include "host/scene/text.h"
 

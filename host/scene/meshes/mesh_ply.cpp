@@ -2,12 +2,12 @@
 //
 // Why a reader of our own: the one library Debian 12 has for it (Assimp 5.2.5) rounds to single
 // precision, writes out of bounds on files made to do so, and takes misread data for a mesh.
-#include "host/scene/mesh_ply.h"
+#include "host/scene/meshes/mesh_ply.h"
 
-#include "host/scene/data_text.h"
 #include "host/scene/file_finder.h"
-#include "host/scene/mesh_builder.h"
-#include "host/scene/ply_data.h"
+#include "host/scene/meshes/data_text.h"
+#include "host/scene/meshes/mesh_builder.h"
+#include "host/scene/meshes/ply_data.h"
 #include "host/scene/text.h"
 
 #include <algorithm>

@@ -1,0 +1,63 @@
+// Shapes: geometry in world space (transforms are already applied), its materials and its light.
+#pragma once
+
+#include "host/error.h"
+#include "host/scene/parameter.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace parhelion {
+
+/// Triangles with shared vertices. `normals` and `uvs` are empty or as long as `positions`.
+/// `flip_normals` is applied on loading (winding and vertex normals), `face_normals` drops the
+/// vertex normals.
+struct Mesh {
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::dvec3> normals; ///< unit length
+    std::vector<glm::dvec2> uvs;
+    std::vector<glm::uvec3>
+        triangles; ///< counter-clockwise seen from the side the geometric normal points to
+};
+
+/// Analytic sphere. The axes (unit, orthogonal, right-handed up to a mirror) carry the uv
+/// parametrisation.
+struct Sphere {
+    glm::dvec3 center{0.0};
+    double radius = 1.0;
+    glm::dvec3 axis_x{1, 0, 0}, axis_y{0, 1, 0}, axis_z{0, 0, 1};
+    bool flip_normals = false; ///< the normal points to the centre
+};
+
+/// Analytic disk { center + a*edge_u + b*edge_v : a^2 + b^2 <= 1 }; an ellipse where the edges are
+/// not orthogonal and equally long. The normal is along cross(edge_u, edge_v), reversed by
+/// `flip_normals`.
+struct Disk {
+    glm::dvec3 center{0.0};
+    glm::dvec3 edge_u{1, 0, 0}, edge_v{0, 1, 0};
+    bool flip_normals = false;
+};
+
+using Geometry = std::variant<Mesh, Sphere, Disk>;
+
+inline constexpr int no_material = -1;
+
+struct Shape {
+    std::string id;
+    std::string plugin; ///< "obj", "sphere", ...
+    SourceLocation location;
+    Geometry geometry;
+    int material_front =
+        no_material; ///< index into Scene::materials; the side the normal points to
+    /// The other side. `twosided` gives it a material; otherwise equal to material_front for BSDFs
+    /// that look at both sides themselves (dielectrics, null) and `no_material` (black) for the
+    /// rest.
+    int material_back = no_material;
+    std::optional<Rgb> radiance; ///< area emitter on the front side, W/(m^2 sr)
+};
+
+} // namespace parhelion
