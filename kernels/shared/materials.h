@@ -19,7 +19,8 @@
     X(thindielectric, ThinDielectric, passing)                                                     \
     X(roughconductor, RoughConductor, opaque)                                                      \
     X(roughdielectric, RoughDielectric, transparent)                                               \
-    X(null, Null, passing)
+    X(null, Null, passing)                                                                         \
+    X(roughdiffuse, RoughDiffuse, opaque)
 
 // Parameters: what it is (host/scene/parameter.h), name, value of one that is missing, where its numbers may lie
 // (a domain of host/scene/mitsuba/number_parameters.cpp, or one in brackets), what it becomes in a MaterialRecord: one of
@@ -51,6 +52,11 @@
     X(Flag, energy_compensation, true, , nothing)
 
 #define PARAMETERS_null(X)
+
+// `alpha`: root mean square slope of the surface.
+#define PARAMETERS_roughdiffuse(X)                                                                 \
+    X(Color, reflectance, 0.5, share, reflectance)                                                 \
+    X(Number, alpha, 0.2, (between(0, 10)), alpha_u)
 // clang-format on
 
 #define KIND_MATERIAL(name, ...) material_##name,

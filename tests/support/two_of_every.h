@@ -48,6 +48,9 @@ inline Bsdf example_roughdielectric(int which) {
     return b;
 }
 inline Bsdf example_null(int) { return NullBsdf{}; }
+inline Bsdf example_roughdiffuse(int which) {
+    return RoughDiffuseBsdf{Rgb(0.5, 0.4, 0.6), which ? 1.0 : 0.4};
+}
 
 using Example = Bsdf (*)(int);
 #define EXAMPLE_MATERIAL(name, ...) example_##name,

@@ -45,6 +45,7 @@ std::optional<double> expected_mean(const NumberParameter& p, std::string_view p
     // Wider filters than that leave pixels of so small a film without samples.
     if (p.tag == "sampler" || p.tag == "film" || (p.tag == "rfilter" && v <= 1)) return 0.5;
     if (plugin == "conductor" && p.name == "specular_reflectance") return v;
+    if (plugin == "roughdiffuse") return 0.4; // half is reflected of what its grooves let out
     if (p.tag == "bsdf" && p.form == NumberForm::real) return 1.0;
     return std::nullopt;
 }
