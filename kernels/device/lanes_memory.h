@@ -229,7 +229,7 @@ FN Record load_record(global const float* records, IntLanes first, int words) {
         Quads q;
 #pragma unroll
         for (int k = 0; k < LANES; k++)
-            q.row[k] = AT_WORD(global const Quad, records + at, (ulong)(uint)first.at[k]);
+            q.row[k] = AT_WORD(global const Quad, records, (ulong)(uint)first.at[k] + at);
         r = with_quads(r, at, q);
     }
     return r;

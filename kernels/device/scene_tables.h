@@ -49,11 +49,11 @@ FN PointRecords load_points(SceneTables scene, IntLanes first) {
     // Lane by lane: indices are needed one by one, and stay in registers. They are volatile lest
     // compilers make vectors of them, to take apart again.
 #define POINT_QUAD(which)                                                                          \
-    AT_WORD(global const Quad, points, (ulong) * (global const volatile uint*)&stored->which)
+    AT_WORD(global const Quad, scene.points,                                                       \
+            (ulong) * (global const volatile uint*)&stored->which + at)
 #pragma unroll
     for (int quad = 0; quad < (POINT_LENGTH + 3) / 4; quad++) {
         int at = quad_begin(quad, POINT_LENGTH);
-        global const float* points = scene.points + at;
         Quads a, b, c;
 #pragma unroll
         for (int k = 0; k < LANES; k++) {

@@ -14,6 +14,19 @@ using namespace parhelion::test;
 
 namespace {
 
+/// Of which some colour differs by more than a thousandth.
+int pixels_apart(const Image& a, const Image& b) {
+    int apart = 0;
+    for (std::size_t i = 0; i < a.channels[0].values.size(); i++) {
+        bool differs = false;
+        for (std::size_t c = 0; c < 3; c++)
+            differs |= a.channels[c].values[i] !=
+                       Approx(b.channels[c].values[i]).epsilon(1e-3).margin(1e-6);
+        apart += differs;
+    }
+    return apart;
+}
+
 bool shows_light(const Integrator& i) {
     return i.kind == IntegratorKind::path || i.kind == IntegratorKind::direct;
 }
@@ -160,12 +173,10 @@ TEST_CASE("Single precision is double's with every switch", "[every switch]") {
         set_energy_compensation(setup.scene, false);
         state.set(setup);
         CAPTURE(state.name);
-        auto single =
-            mean_rgb(host_render(setup.scene, Precision::single_precision, setup.options).image);
-        auto twice =
-            mean_rgb(host_render(setup.scene, Precision::double_precision, setup.options).image);
-        for (std::size_t c = 0; c < 3; c++)
-            CHECK(single[c] == Approx(twice[c]).epsilon(1e-3).margin(1e-6));
+        // One decision in 768 paths may fall to the other side.
+        CHECK(pixels_apart(
+                  host_render(setup.scene, Precision::single_precision, setup.options).image,
+                  host_render(setup.scene, Precision::double_precision, setup.options).image) <= 1);
     }
 }
 
