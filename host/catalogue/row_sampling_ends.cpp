@@ -1,5 +1,6 @@
 // Every sampling routine at the ends of its random numbers, 0 and 1 - 2^-24, in all combinations,
 // and between them: what it returns is finite, and has a density unless there is no sample.
+#include "host/catalogue/ends.h"
 #include "host/catalogue/rows.h"
 
 #include "host/flatten/filter_table.h"
@@ -18,29 +19,6 @@ namespace {
 
 using f32::vec2;
 using f32::vec3;
-
-/// All corners of the cube of three random numbers, then random ones, with an end now and then.
-class Ends {
-public:
-    explicit Ends(std::uint64_t seed) : random_(seed) {}
-
-    /// Set `i`, of any number of them.
-    vec3 numbers(std::uint64_t i) {
-        auto number = [&](int k) {
-            if (i < 8) return i >> k & 1 ? last : 0.f;
-            return random_.bits() % 4   ? static_cast<float>(random_.unit())
-                   : random_.bits() % 2 ? last
-                                        : 0.f;
-        };
-        float x = number(0), y = number(1);
-        return {x, y, number(2)};
-    }
-    Random& random() { return random_; }
-
-private:
-    static constexpr float last = 1 - 0x1p-24f;
-    Random random_;
-};
 
 struct Found {
     std::uint64_t tried = 0, wrong = 0;

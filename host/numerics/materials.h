@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -83,6 +84,15 @@ inline std::vector<MaterialCase> material_cases() {
             cases.push_back(c);
         }
     return cases;
+}
+
+/// The most that may be sent on of what is received. The model of rough matte surfaces is no more
+/// exact than this: A + B / 2 of what grazes them (Oren and Nayar 1994, their A and B integrated).
+inline double most_sent_on(const MaterialCase& c) {
+    if (c.kind != material_roughdiffuse) return 1;
+    double variance = c.alpha_u * c.alpha_u / 2;
+    return std::max(1.0,
+                    1 - 0.5 * variance / (variance + 0.33) + 0.225 * variance / (variance + 0.09));
 }
 
 /// Directions toward the viewer: from the normal to 0.1 degrees from grazing; from below too where
