@@ -66,8 +66,7 @@ Rgb read(parameter::Color, Properties& p, std::string_view name, const Rgb& miss
     return p.color(name, missing, SpectrumUse::reflectance);
 }
 
-[[maybe_unused]] double read(parameter::Number, Properties& p, std::string_view name,
-                             double missing) {
+double read(parameter::Number, Properties& p, std::string_view name, double missing) {
     return p.number(name, missing);
 }
 

@@ -54,9 +54,7 @@ struct MaterialNumber {
 using MaterialNumbers = std::vector<MaterialNumber>;
 
 MaterialNumbers numbers(parameter::Color, std::string_view name) { return {{name, color}}; }
-[[maybe_unused]] MaterialNumbers numbers(parameter::Number, std::string_view name) {
-    return {{name, real}};
-}
+MaterialNumbers numbers(parameter::Number, std::string_view name) { return {{name, real}}; }
 MaterialNumbers numbers(parameter::Flag, std::string_view) { return {}; }
 MaterialNumbers numbers(parameter::Index, std::string_view) {
     return {{"int_ior", real}, {"ext_ior", real}};
