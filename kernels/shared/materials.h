@@ -1,8 +1,8 @@
 // The list of materials, and of each the parameters that scene files give it.
 //
-// From here come the kinds and their features, the structs of the host (host/scene/material.h), what
-// reads them from files and where their numbers may lie, what packs them for the device, and the
-// examples and pages made from all of these. The BSDF itself is in bsdf_<name>.h.
+// From here come the kinds and their features, the structs of the host (host/scene/material.h),
+// what reads them from files and where their numbers may lie, what packs them for the device, and
+// the examples and pages made from all of these. The BSDF itself is in bsdf_<name>.h.
 #ifndef PARHELION_MATERIALS_H
 #define PARHELION_MATERIALS_H
 
