@@ -3,6 +3,7 @@
 
 #include "host/flatten/aov_plan.h"
 #include "host/flatten/filter_table.h"
+#include "host/flatten/material_records.h"
 
 #include <fmt/format.h>
 
@@ -45,11 +46,7 @@ void decide_kinds(FeatureDecisions& out, const std::array<Feature, N>& features,
         });
 }
 
-bool is_rough(const MaterialRecord& m) {
-    return m.kind == material_roughconductor || m.kind == material_roughdielectric;
-}
 bool is_beckmann(const MaterialRecord& m) { return is_rough(m) && (m.distribution & 1); }
-bool is_anisotropic(const MaterialRecord& m) { return is_rough(m) && m.alpha_u != m.alpha_v; }
 bool lets_through(const MaterialRecord& m) { return (PASSING_MATERIALS >> m.kind) & 1; }
 
 void decide_materials(const std::vector<MaterialRecord>& materials, FeatureDecisions& out) {

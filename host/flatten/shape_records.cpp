@@ -2,6 +2,7 @@
 #include "host/flatten/shape_records.h"
 
 #include "host/error.h"
+#include "host/flatten/material_records.h"
 #include "host/parallel.h"
 
 #include <fmt/format.h>
@@ -32,10 +33,9 @@ struct Attributes {
 };
 
 Attributes attributes_of(const Scene& scene, const std::vector<MaterialRecord>& materials) {
-    auto lies = [](const MaterialRecord& m) { return m.alpha_u != m.alpha_v; };
     auto is_uv = [](const AovRequest& a) { return a.kind == "uv"; };
     const auto& aovs = scene.integrator.aovs;
-    bool reads_uvs = std::any_of(materials.begin(), materials.end(), lies) ||
+    bool reads_uvs = std::any_of(materials.begin(), materials.end(), is_anisotropic) ||
                      std::any_of(aovs.begin(), aovs.end(), is_uv);
     Attributes some;
     for (const Shape& shape : scene.shapes)

@@ -1,5 +1,7 @@
 // Every number of every plugin, at the ends of its domain, inside and beyond: refused with one
 // line, mapped with a note, or an image that is right.
+#include "host/flatten/kind_names.h"
+#include "host/flatten/material_records.h"
 #include "host/render/host_render.h"
 #include "host/scene/text.h"
 #include "test_scene_tools.h"
@@ -119,17 +121,9 @@ void check_number(const NumberParameter& p, std::string_view plugin, const Tried
     }
 }
 
-/// By the lists of materials' parameters.
 bool has_microfacets(std::string_view plugin) {
-    bool found = false;
-#define IS_ROUGHNESS(Kind, ...)                                                                    \
-    found = found || std::is_same_v<parameter::Kind, parameter::Roughness>;
-#define ASK_MATERIAL(name, ...)                                                                    \
-    if (plugin == #name) {                                                                         \
-        PARAMETERS_##name(IS_ROUGHNESS)                                                            \
-    }
-    MATERIALS(ASK_MATERIAL)
-    return found;
+    auto kind = std::find(material_names.begin(), material_names.end(), plugin);
+    return kind != material_names.end() && (rough_materials >> (kind - material_names.begin()) & 1);
 }
 
 /// What stands beside the number: once nothing, once what else decides what it does.

@@ -125,6 +125,28 @@ TEST_CASE("Paths have the features that their length leaves a use for", "[nothin
     }
 }
 
+TEST_CASE("Texture coordinates are read for lobes that lie along them, and not for others",
+          "[nothing]") {
+    for (Example example : example_materials)
+        for (int which : {0, 1}) {
+            Bsdf bsdf = example(which);
+            bool anisotropic = std::visit(
+                [](const auto& b) {
+                    if constexpr (requires { b.roughness; })
+                        return b.roughness.alpha_u != b.roughness.alpha_v;
+                    return false;
+                },
+                bsdf);
+            Scene scene;
+            scene.materials.push_back({"", {}, bsdf});
+            Mesh mesh = quad({0, 0, -3}, {1, 0, 0}, {0, 1, 0});
+            mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+            scene.shapes.push_back(shape_of(mesh, 0, 0));
+            INFO("kind " << bsdf.index() << ", example " << which);
+            CHECK(make_device_scene(scene).features.has(feature_vertex_uvs) == anisotropic);
+        }
+}
+
 TEST_CASE("Features are those of the records", "[nothing]") {
     Scene scene = small(two_of_every());
     auto has = [&](Feature f) { return make_device_scene(scene).features.has(f); };
