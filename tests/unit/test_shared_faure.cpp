@@ -4,12 +4,14 @@
 
 #include "host/numerics/measure.h"
 #include "host/numerics/statistics.h"
+#include "tests/support/even_grid.h"
 
 #include <array>
 #include <bit>
 
 using namespace parhelion;
 using namespace parhelion::numerics;
+using test::grid_p_value;
 
 namespace {
 
@@ -45,16 +47,6 @@ std::vector<Point> aligned_block(Random& random, int m) {
     for (std::uint32_t n = 0; n < 1u << m; n++)
         points.push_back(point(pixel, first + n, dimension, seed));
     return points;
-}
-
-template<class F>
-double grid_p_value(const F& pair, int count) {
-    std::vector<double> observed(256), expected(256, count / 256.0);
-    for (int n = 0; n < count; n++) {
-        auto [x, y] = pair(std::uint32_t(n));
-        observed[std::size_t(top_bits(x, 4)) * 16 + top_bits(y, 4)]++;
-    }
-    return chi_square_p(observed, expected);
 }
 
 } // namespace

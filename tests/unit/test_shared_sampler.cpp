@@ -4,22 +4,13 @@
 
 #include "host/numerics/measure.h"
 #include "host/numerics/statistics.h"
+#include "tests/support/even_grid.h"
 
 using namespace parhelion;
 using namespace parhelion::numerics;
+using test::grid_p_value;
 
 namespace {
-
-/// p-value that the pairs (first, second) fill a 16 x 16 grid of the unit square evenly.
-template<class F>
-double grid_p_value(const F& pair, int count) {
-    std::vector<double> observed(256), expected(256, count / 256.0);
-    for (int n = 0; n < count; n++) {
-        auto [x, y] = pair(std::uint32_t(n));
-        observed[std::size_t(x * 16) * 16 + std::size_t(y * 16)]++;
-    }
-    return chi_square_p(observed, expected);
-}
 
 struct Pair {
     double x, y;
