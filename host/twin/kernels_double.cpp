@@ -65,9 +65,7 @@ struct Kernels : WorkItem {
 } // namespace
 
 void run_work_item(Stage stage, const HostLaunch<double>& launch, int depth, int number) {
-    auto buffers = buffer_ranges(launch);
-    Kernels kernels{{launch.features, number, buffers}};
-    run_stage(kernels, stage, launch, depth);
+    run_by<Kernels>(stage, launch, depth, number);
 }
 
 } // namespace parhelion

@@ -38,4 +38,12 @@ void run_stage(Kernels& kernels, Stage stage, const HostLaunch<Real>& launch, in
 #undef SCENE_ARGUMENT
 }
 
+/// Work-item `number` of a stage, by kernels of its own.
+template<class Kernels, class Real>
+void run_by(Stage stage, const HostLaunch<Real>& launch, int depth, int number) {
+    auto buffers = buffer_ranges(launch);
+    Kernels kernels{{launch.features, number, buffers}};
+    run_stage(kernels, stage, launch, depth);
+}
+
 } // namespace parhelion
