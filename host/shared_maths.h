@@ -6,6 +6,9 @@
 #include "kernels/shared/features.h"
 #include "kernels/shared/types.h"
 
+// Before the kernels make R a macro: GLM has types of that name, wherever else it is included.
+#include <glm/matrix.hpp>
+
 #include <cmath>
 #include <cstdint>
 #include <limits>
