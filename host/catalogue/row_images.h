@@ -4,7 +4,7 @@
 
 #include "host/catalogue/stress_run.h"
 #include "host/numerics/image_figures.h"
-#include "host/render/path_tracer.h"
+#include "host/render/device_render.h"
 
 #include <string>
 #include <utility>

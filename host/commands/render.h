@@ -3,7 +3,7 @@
 
 #include "host/commands/command_line.h"
 #include "host/image/distinct_files.h"
-#include "host/render/path_tracer.h"
+#include "host/render/device_render.h"
 
 #include <array>
 #include <optional>

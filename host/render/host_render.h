@@ -1,7 +1,7 @@
 // Rendering a scene with the kernels compiled as C++: slowly, and without a device.
 #pragma once
 
-#include "host/render/path_tracer.h"
+#include "host/render/device_render.h"
 
 namespace parhelion {
 

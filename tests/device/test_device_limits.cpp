@@ -2,7 +2,7 @@
 #include "host/cl/work_groups.h"
 #include "host/error.h"
 #include "host/numerics/every_kind_scene.h"
-#include "host/render/path_tracer.h"
+#include "host/render/device_render.h"
 #include "host/waves/stage_programs.h"
 #include "tests/support/device.h"
 

@@ -1,7 +1,7 @@
 // The cache of compiled programs never changes a result: fresh, warm, damaged in any way, or not
 // writable.
 #include "host/numerics/every_kind_scene.h"
-#include "host/render/path_tracer.h"
+#include "host/render/device_render.h"
 #include "tests/support/device.h"
 
 #include <catch2/catch.hpp>

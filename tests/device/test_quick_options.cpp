@@ -1,6 +1,6 @@
 // The compiler options that only save time: every stage compiles with them, and computes the same.
 #include "host/numerics/every_kind_scene.h"
-#include "host/render/path_tracer.h"
+#include "host/render/device_render.h"
 #include "host/waves/stages.h"
 #include "tests/support/device.h"
 #include "tests/support/skip.h"

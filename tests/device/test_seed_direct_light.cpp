@@ -1,7 +1,7 @@
 // Direct light on the device with values known exactly: two point lights over a plane, one of them
 // blocked by a triangle; and the normals view of the bunny against the host's own hits.
 #include "host/flatten/camera_record.h"
-#include "host/render/path_tracer.h"
+#include "host/render/device_render.h"
 #include "host/scene/load.h"
 #include "tests/support/single_primitives.h"
 #include "tests/support/traversal.h"

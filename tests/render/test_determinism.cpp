@@ -4,7 +4,7 @@
 #include "host/image/exr.h"
 #include "host/numerics/every_kind_scene.h"
 #include "host/numerics/image_figures.h"
-#include "host/render/path_tracer.h"
+#include "host/render/device_render.h"
 #include "tests/support/render_scene.h"
 
 #include <catch2/catch.hpp>

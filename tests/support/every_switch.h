@@ -2,7 +2,7 @@
 // list of features, and the integrators, AOVs and options of the command line.
 #pragma once
 
-#include "host/render/path_tracer.h"
+#include "host/render/device_render.h"
 #include "tests/support/two_of_every.h"
 
 #include <functional>

@@ -3,7 +3,7 @@
 
 #include "host/commands/render.h"
 #include "host/numerics/image_figures.h"
-#include "host/render/path_tracer.h"
+#include "host/render/device_render.h"
 #include "host/scene/load.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Rendering a scene on a device.
-#include "host/render/path_tracer.h"
+#include "host/render/device_render.h"
 
 #include "host/clock.h"
 #include "host/error.h"
