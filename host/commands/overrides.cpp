@@ -13,12 +13,8 @@
 namespace parhelion {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, IntegratorKind>, 5> integrators{
-    {{"path", IntegratorKind::path},
-     {"direct", IntegratorKind::direct},
-     {"normals", IntegratorKind::normals},
-     {"depth", IntegratorKind::depth},
-     {"aov", IntegratorKind::aov}}};
+#define NAMED_INTEGRATOR(name) std::pair{std::string_view(#name), IntegratorKind::name},
+constexpr std::array integrators{INTEGRATORS(NAMED_INTEGRATOR)};
 
 #define NAMED_PATTERN(name) std::pair{std::string_view(#name), SamplePattern::name},
 constexpr std::array patterns{SAMPLE_PATTERNS(NAMED_PATTERN)};

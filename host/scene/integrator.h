@@ -9,7 +9,9 @@
 
 namespace parhelion {
 
-enum class IntegratorKind { path, direct, depth, normals, aov };
+#define INTEGRATORS(X) X(path) X(direct) X(normals) X(depth) X(aov)
+#define INTEGRATOR_ENUM(name) name,
+enum class IntegratorKind { INTEGRATORS(INTEGRATOR_ENUM) };
 
 /// An AOV asked for by the scene: the name its channels get and the kind, e.g. {"nn", "sh_normal"}.
 struct AovRequest {

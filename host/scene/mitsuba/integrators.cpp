@@ -121,12 +121,9 @@ Integrator read_moment(const IntegratorInput& in) {
 
 using IntegratorReader = Integrator (*)(const IntegratorInput&);
 
-constexpr PluginTable<IntegratorReader, 6> integrator_plugins = {{{"path", read_path},
-                                                                  {"direct", read_direct},
-                                                                  {"depth", read_depth},
-                                                                  {"normals", read_normals},
-                                                                  {"aov", read_aov},
-                                                                  {"moment", read_moment}}};
+#define PLUGIN(name) {#name, read_##name},
+constexpr PluginTable<IntegratorReader, 6> integrator_plugins = {
+    {INTEGRATORS(PLUGIN){"moment", read_moment}}};
 
 } // namespace
 
