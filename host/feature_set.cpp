@@ -12,7 +12,7 @@ namespace parhelion {
 namespace {
 
 #define MATERIAL_NAME(name, ...) "bsdf_" #name,
-#define EMITTER_NAME(name) "emitter_" #name,
+#define EMITTER_NAME(name, ...) "emitter_" #name,
 #define GEOMETRY_NAME(name) "shape_" #name,
 #define OTHER_NAME(name) #name,
 /// In the order of enum Feature.

@@ -227,7 +227,7 @@ Checks densities(StressRun& run) {
         asked[light.kind]++;
     }
     Checks checks;
-#define DENSITY_CHECK(name)                                                                        \
+#define DENSITY_CHECK(name, ...)                                                                   \
     if (asked[emitter_##name])                                                                     \
         checks.push_back(                                                                          \
             share_check("density of a sample and of its direction, times cosine: " #name,          \

@@ -7,9 +7,8 @@
 
 namespace parhelion {
 
-#define KIND_NAME_MATERIAL(name, ...) #name,
-inline constexpr std::array material_names{MATERIALS(KIND_NAME_MATERIAL)};
-#define KIND_NAME(name) #name,
+#define KIND_NAME(name, ...) #name,
+inline constexpr std::array material_names{MATERIALS(KIND_NAME)};
 inline constexpr std::array emitter_names{EMITTERS(KIND_NAME)};
 
 } // namespace parhelion

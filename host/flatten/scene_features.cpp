@@ -18,6 +18,8 @@ namespace {
 // By kind.
 constexpr std::array material_features{MATERIALS(FEATURE_MATERIAL)};
 constexpr std::array emitter_features{EMITTERS(FEATURE_EMITTER)};
+#define MEETABLE(name, met) met,
+constexpr std::array meetable{EMITTERS(MEETABLE)};
 constexpr std::array geometry_features{GEOMETRIES(FEATURE_GEOMETRY)};
 
 // Measured: packets win while the tree (50 bytes a primitive) stays near the caches' size.
@@ -94,11 +96,6 @@ void decide_surfaces(const Scene& scene, const DeviceScene& records, FeatureDeci
                fmt::format("{} primitives; packets up to {}", primitives, primitives_for_packets));
 }
 
-constexpr FeatureSet meetable_emitters{
-    feature_emitter_area_triangle,      feature_emitter_area_parallelogram,
-    feature_emitter_area_tiny_triangle, feature_emitter_area_sphere,
-    feature_emitter_area_disk,          feature_emitter_constant};
-
 void decide_lights(const DeviceScene& records, FeatureDecisions& out) {
     decide_kinds(out, emitter_features, records.lights, "lights",
                  [](const LightRecord& light) { return light.kind; });
@@ -117,9 +114,7 @@ std::string edges(int longest) {
                                : fmt::format("paths of at most {} edges", longest);
 }
 
-/// After surfaces and lights.
-Transport transport(const Integrator& integrator, const DeviceScene& records,
-                    const FeatureSet& on) {
+Transport transport(const Integrator& integrator, const DeviceScene& records) {
     Transport t{};
     t.asked = integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct;
     if (!t.asked) {
@@ -128,8 +123,9 @@ Transport transport(const Integrator& integrator, const DeviceScene& records,
     }
     t.lit = !records.lights.empty();
     int longest = longest_path(integrator);
-    bool meetable = !(on & meetable_emitters).empty();
-    t.emission = meetable && longest != 0;
+    bool seen = std::any_of(records.lights.begin(), records.lights.end(),
+                            [](const LightRecord& light) { return meetable[light.kind] != 0; });
+    t.emission = seen && longest != 0;
     t.several = longest >= 2;
     t.next_event = t.lit && t.several && integrator.emitter_samples;
     // As in Mitsuba 3: what lets rays straight through is a surface like others to `direct`.
@@ -137,7 +133,7 @@ Transport transport(const Integrator& integrator, const DeviceScene& records,
                 std::any_of(records.materials.begin(), records.materials.end(), lets_through);
     // After the last scattering only emission can be met: with point lights alone nothing is. But
     // what lies behind a surface that lets rays through covers the pixel, lit or not.
-    t.sees = meetable || (t.lit && longest >= 3) || t.through;
+    t.sees = seen || (t.lit && longest >= 3) || t.through;
     t.scatters = t.several && integrator.bsdf_samples && t.sees;
     t.roulette = t.scatters && longest > integrator.rr_depth;
     t.found = fmt::format("{} lights, {}", records.lights.size(), edges(longest));
@@ -146,7 +142,7 @@ Transport transport(const Integrator& integrator, const DeviceScene& records,
 
 void decide_transport(const Scene& scene, const DeviceScene& records, FeatureDecisions& out) {
     const Integrator& integrator = scene.integrator;
-    Transport t = transport(integrator, records, out.on());
+    Transport t = transport(integrator, records);
     const char* sampled = integrator.emitter_samples ? "sampled" : "not sampled";
     out.decide(feature_emission, t.emission, t.found);
     out.decide(feature_next_event, t.next_event,

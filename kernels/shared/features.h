@@ -10,10 +10,10 @@
 // clang-format off
 #define GEOMETRIES(X) X(triangle) X(sphere) X(disk)
 
-// Rows of the light table. An area emitter has one row for each of its primitives.
+// Rows of the light table: name, whether a ray can meet it. An area emitter has one row for each of its primitives.
 #define EMITTERS(X)                                                                                \
-    X(area_triangle) X(area_parallelogram) X(area_sphere) X(area_disk) X(point) X(spot)              \
-    X(directional) X(constant) X(area_tiny_triangle)
+    X(area_triangle, 1) X(area_parallelogram, 1) X(area_sphere, 1) X(area_disk, 1) X(point, 0)       \
+    X(spot, 0) X(directional, 0) X(constant, 1) X(area_tiny_triangle, 1)
 
 // First-hit values beside the radiance: name, number of channels, suffixes of the channel names. A channel without suffix is
 // for the host: of a position, 1, to know how much of a pixel has one.
@@ -55,7 +55,7 @@
 // clang-format on
 
 #define FEATURE_MATERIAL(name, ...) feature_bsdf_##name,
-#define FEATURE_EMITTER(name) feature_emitter_##name,
+#define FEATURE_EMITTER(name, ...) feature_emitter_##name,
 #define FEATURE_GEOMETRY(name) feature_shape_##name,
 #define FEATURE_OTHER(name) feature_##name,
 enum Feature {
@@ -63,7 +63,7 @@ enum Feature {
         OTHER_FEATURES(FEATURE_OTHER) feature_count
 };
 
-#define KIND_EMITTER(name) emitter_##name,
+#define KIND_EMITTER(name, ...) emitter_##name,
 enum EmitterKind { EMITTERS(KIND_EMITTER) emitter_kind_count };
 #define KIND_GEOMETRY(name) geometry_##name,
 enum GeometryKind { GEOMETRIES(KIND_GEOMETRY) geometry_kind_count };

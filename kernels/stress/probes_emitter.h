@@ -7,7 +7,7 @@ FN ProbeOut out_emitter(EmitterSample s) {
 }
 
 // The point that the second function asks about is one that the emitter itself chose.
-#define EMITTER_PROBE_FUNCTIONS(name)                                                              \
+#define EMITTER_PROBE_FUNCTIONS(name, ...)                                                         \
     FN ProbeOut probe_##name##_sample(ProbeIn i) {                                                 \
         return out_emitter(emitter_##name##_sample(in_Light(i, 0), in3(i, 16), in2(i, 19)));       \
     }                                                                                              \
@@ -36,7 +36,7 @@ FN ProbeOut probe_light_importance(ProbeIn i) {
     return out2(v2(x.to_surface, x.to_point));
 }
 
-#define EMITTER_PROBES(name) PROBE(name##_sample, "lpuu", 17) PROBE(name##_hit, "lpuu", 2)
+#define EMITTER_PROBES(name, ...) PROBE(name##_sample, "lpuu", 17) PROBE(name##_hit, "lpuu", 2)
 #define PROBES                                                                                     \
     EMITTERS(EMITTER_PROBES)                                                                       \
     PROBE(any_emitter_sample, "lpuu", 17)                                                          \

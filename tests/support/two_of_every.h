@@ -160,7 +160,7 @@ struct LightKind {
     void (*add)(Scene&, int which, Rgb power, Where);
     int examples() const { return feature == feature_emitter_constant ? 1 : 2; }
 };
-#define LIGHT_KIND(name) LightKind{#name, feature_emitter_##name, add_##name},
+#define LIGHT_KIND(name, ...) LightKind{#name, feature_emitter_##name, add_##name},
 inline constexpr std::array light_kinds{EMITTERS(LIGHT_KIND)};
 
 struct Light {

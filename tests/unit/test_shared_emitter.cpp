@@ -161,7 +161,7 @@ struct EmitterCase {
 
 std::vector<EmitterCase> emitter_cases() {
     std::vector<EmitterCase> all;
-#define ADD_EMITTER(label)                                                                         \
+#define ADD_EMITTER(label, ...)                                                                    \
     for (LightCase c : cases_##label()) {                                                          \
         c.kind = emitter_##label;                                                                  \
         all.push_back({#label, c, trace_##label});                                                 \
