@@ -1,15 +1,13 @@
 // Where two tracers disagree: ties at edges told apart from mistakes, by double precision.
 #include "benchmarks/native/mismatch.h"
 
-#include "host/shared_maths.h"
+#include "host/numerics/triangle_truth.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace parhelion::bench {
 namespace {
-
-using f64::vec3;
 
 /// A triangle met in double: distance along the ray, the smallest barycentric, and how much a
 /// rounding error of the coordinates moves the distance, as a share of it.
@@ -18,15 +16,9 @@ struct Meeting {
 };
 
 Meeting meet(const PrimitiveRecord& p, const Ray& r) {
-    vec3 a{p.ax, p.ay, p.az}, b{p.bx, p.by, p.bz}, c{p.cx, p.cy, p.cz};
-    vec3 o{r.origin[0], r.origin[1], r.origin[2]},
-        d{r.direction[0], r.direction[1], r.direction[2]};
-    vec3 e1 = f64::sub3(b, a), e2 = f64::sub3(c, a), n = f64::cross3(e1, e2), to = f64::sub3(a, o);
-    double facing = f64::dot3(d, n), height = f64::dot3(to, n);
-    vec3 q = f64::cross3(to, d);
-    double v = f64::dot3(e2, q) / facing, w = -f64::dot3(e1, q) / facing;
-    double size = f64::length3(n) * (f64::length3(to) + f64::length3(a));
-    return {height / facing, std::min({1 - v - w, v, w}), size / std::fabs(height)};
+    numerics::PlaneMeeting m = numerics::plane_meeting(p, r);
+    double corner = std::hypot(p.ax, p.ay, p.az);
+    return {m.t, m.inside, m.normal * (m.to_corner + corner) / std::fabs(m.height)};
 }
 
 constexpr double rounding = 1e-4; ///< of a barycentric, for each unit of sensitivity

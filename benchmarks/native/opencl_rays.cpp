@@ -6,28 +6,12 @@
 
 #include <sys/types.h> // ulong, as the kernels call it
 
-#include <algorithm>
-#include <bit>
-
 namespace parhelion::bench {
 namespace {
 
-/// Entry of path i: segments stand apart by their padding.
-std::size_t entry(const WorkSizes& s, std::size_t i) {
-    auto size = static_cast<std::size_t>(s.segment_size);
-    return i / size * static_cast<std::size_t>(s.segment_stride) + i % size;
-}
-
-float as_float(int i) { return std::bit_cast<float>(i); }
-
-/// The fields that both states begin with.
-void lay_out(const Ray& r, float* at, std::size_t stride) {
-    for (std::size_t axis = 0; axis < 3; axis++) {
-        at[(ray_origin + axis) * stride] = r.origin[axis];
-        at[(ray_direction + axis) * stride] = r.direction[axis];
-    }
-    at[ray_t * stride] = r.t_max;
-    at[ray_excluded * stride] = as_float(r.excluded);
+numerics::RayLayout layout_of(const WorkSizes& s) {
+    return {static_cast<std::size_t>(s.segments), static_cast<std::size_t>(s.segment_size),
+            static_cast<std::size_t>(s.segment_stride), s.state_stride()};
 }
 
 } // namespace
@@ -74,18 +58,12 @@ void OpenClTracer::prepare(std::span<const Ray> rays, int depth, bool any_hit) {
     count_ = rays.size();
     work_.statistics.fill_zero(device_.queue);
     work_.results.fill_zero(device_.queue);
-    std::vector<int> counts(work_.counts.count());
-    for (std::size_t i = 0; i < counts.size(); i++) {
-        std::size_t first = i / 2 * static_cast<std::size_t>(sizes_.segment_size);
-        std::size_t left = count_ > first ? count_ - first : 0;
-        counts[i] = static_cast<int>(std::min(left, static_cast<std::size_t>(sizes_.segment_size)));
-    }
-    device_.queue.enqueueWriteBuffer(work_.counts.handle(), CL_TRUE, 0, work_.counts.bytes(),
-                                     counts.data());
+    auto layout = layout_of(sizes_);
+    write(work_.counts, numerics::segment_counts(count_, layout));
     if (any_hit)
-        fill_shadows(rays);
+        write(work_.shadow_state, numerics::shadow_state(rays, layout));
     else
-        fill_paths(rays);
+        write(work_.path_state, numerics::path_state(rays, layout));
     cl::Kernel& kernel = any_hit ? shadow_ : intersect_;
     constexpr std::size_t block = BLOCK_PIXELS;
     kernel.setArg(wave_argument,
@@ -93,33 +71,17 @@ void OpenClTracer::prepare(std::span<const Ray> rays, int depth, bool any_hit) {
     kernel.setArg(depth_argument, depth);
 }
 
-void OpenClTracer::fill_paths(std::span<const Ray> rays) {
-    state_.resize(work_.path_state.count());
-    std::size_t stride = sizes_.state_stride();
-    for (std::size_t i = 0; i < rays.size(); i++) {
-        const Ray& r = rays[i];
-        float* at = state_.data() + entry(sizes_, i);
-        lay_out(r, at, stride);
-        at[path_slot * stride] = as_float(static_cast<int>(i));
-    }
-    device_.queue.enqueueWriteBuffer(work_.path_state.handle(), CL_TRUE, 0,
-                                     work_.path_state.bytes(), state_.data());
+template<class T>
+void OpenClTracer::write(const Buffer<T>& to, const std::vector<T>& values) {
+    device_.queue.enqueueWriteBuffer(to.handle(), CL_TRUE, 0, values.size() * sizeof(T),
+                                     values.data());
 }
 
-/// Every ray brings the radiance (1, 1, 1) to its own slot.
-void OpenClTracer::fill_shadows(std::span<const Ray> rays) {
-    state_.resize(work_.shadow_state.count());
-    std::size_t stride = sizes_.state_stride();
-    for (std::size_t i = 0; i < rays.size(); i++) {
-        const Ray& r = rays[i];
-        float* at = state_.data() + entry(sizes_, i);
-        lay_out(r, at, stride);
-        for (int channel = 0; channel < 3; channel++)
-            at[(shadow_contribution + channel) * stride] = 1;
-        at[shadow_slot * stride] = as_float(static_cast<int>(i));
-    }
-    device_.queue.enqueueWriteBuffer(work_.shadow_state.handle(), CL_TRUE, 0,
-                                     work_.shadow_state.bytes(), state_.data());
+template<class T>
+std::vector<T> OpenClTracer::read(const Buffer<T>& from) {
+    std::vector<T> values(from.count());
+    from.read(device_.queue, values.data());
+    return values;
 }
 
 double OpenClTracer::trace() {
@@ -133,22 +95,10 @@ double OpenClTracer::trace() {
 }
 
 std::vector<Hit> OpenClTracer::hits() {
-    std::vector<Hit> found(count_);
-    if (any_hit_) {
-        std::vector<float> results(work_.results.count());
-        work_.results.read(device_.queue, results.data());
-        const float* r = results.data() + result_r * sizes_.result_stride();
-        for (std::size_t i = 0; i < count_; i++)
-            found[i] = {0, 0, 0, r[i] == 0 ? 0 : -1};
-        return found;
-    }
-    work_.path_state.read(device_.queue, state_.data());
-    std::size_t stride = sizes_.state_stride();
-    for (std::size_t i = 0; i < count_; i++) {
-        const float* at = state_.data() + entry(sizes_, i);
-        found[i] = {at[path_t * stride], at[path_b1 * stride], at[path_b2 * stride],
-                    std::bit_cast<int>(at[path_primitive * stride])};
-    }
+    if (!any_hit_) return numerics::read_hits(read(work_.path_state), count_, layout_of(sizes_));
+    std::vector<Hit> found;
+    for (bool blocked : numerics::read_blocked(read(work_.results), count_, sizes_.result_stride()))
+        found.push_back({0, 0, 0, blocked ? 0 : -1});
     return found;
 }
 

@@ -21,8 +21,10 @@ public:
     std::vector<Hit> hits() override;
 
 private:
-    void fill_paths(std::span<const Ray> rays);
-    void fill_shadows(std::span<const Ray> rays);
+    template<class T>
+    void write(const Buffer<T>& to, const std::vector<T>& values);
+    template<class T>
+    std::vector<T> read(const Buffer<T>& from);
 
     RenderDevice& device_;
     WorkSplit split_;
@@ -31,7 +33,6 @@ private:
     WaveBuffers work_;
     Buffer<float> film_;
     cl::Kernel intersect_, shadow_;
-    std::vector<float> state_;
     std::size_t count_ = 0;
     bool any_hit_ = false;
 };

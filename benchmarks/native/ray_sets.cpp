@@ -3,6 +3,7 @@
 
 #include "host/shared_maths.h"
 
+#include <array>
 #include <cmath>
 
 namespace parhelion::bench {
@@ -61,7 +62,7 @@ NextRays next_rays(const TriangleScene& scene, std::span<const PrimitiveRecord> 
         if (hit.primitive < 0) continue;
         f32::SurfaceInteraction s = f32::surface_triangle(
             corners(primitives[static_cast<std::size_t>(hit.primitive)]), hit.b1, hit.b2);
-        const float* d = rays[i].direction;
+        const std::array<float, 3>& d = rays[i].direction;
         vec3 n = f32::dot3(s.ng, {d[0], d[1], d[2]}) > 0 ? f32::neg3(s.ng) : s.ng;
         f32::Random4 u =
             f32::random4(static_cast<f32::Uint>(i), 0, static_cast<f32::Uint>(depth), 1);

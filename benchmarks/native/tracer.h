@@ -1,24 +1,17 @@
 // What can trace rays, so that all are timed by one loop.
 #pragma once
 
-#include <limits>
+#include "host/numerics/ray_states.h"
+
 #include <span>
 #include <string>
 #include <vector>
 
 namespace parhelion::bench {
 
-struct Ray {
-    float origin[3], direction[3];
-    float t_max = std::numeric_limits<float>::infinity();
-    int excluded = -1; ///< the primitive it leaves; Embree is not told
-};
-
+using Ray = numerics::TracedRay; ///< Embree is not told which primitive it leaves
 /// Of an any-hit query only whether `primitive` is negative means something.
-struct Hit {
-    float t, b1, b2;
-    int primitive; ///< -1: nothing
-};
+using Hit = numerics::TracedHit;
 
 /// One wave of rays at a time: at most `wave_rays`, which a renderer keeps in its cache.
 class Tracer {

@@ -9,14 +9,18 @@
 #include <sys/types.h> // ulong, as the kernels call it
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <stdexcept>
 
 namespace parhelion::numerics {
 namespace {
 
-constexpr int segment = 2048;
+/// Without room beyond its rays.
+RayLayout layout_of(std::size_t rays) {
+    constexpr std::size_t segment = 2048;
+    std::size_t segments = (rays + segment - 1) / segment;
+    return {segments, segment, segment, segments * segment};
+}
 
 template<class T>
 Buffer<T> device_copy(const RenderDevice& d, const char* name, const std::vector<T>& values) {
@@ -61,81 +65,37 @@ std::uint64_t differing(const std::vector<Answer>& a, const std::vector<Answer>&
 
 } // namespace
 
-struct Traversal::Sizes {
-    std::size_t rays, segments;
-    explicit Sizes(std::size_t n) : rays(n), segments((n + segment - 1) / segment) {}
-    std::size_t stride() const { return segments * segment; }
-    /// Entries of each segment, twice: of paths and of shadow rays.
-    std::vector<int> counts() const {
-        std::vector<int> entries(2 * segments);
-        for (std::size_t i = 0; i < entries.size(); i++)
-            entries[i] = static_cast<int>(std::min<std::size_t>(segment, rays - i / 2 * segment));
-        return entries;
-    }
-};
-
 /// What a kernel reads and writes: the state of paths or of shadow rays, and what those bring.
 struct Traversal::Work {
     std::vector<float> state, results;
 
-    static void put_ray(std::vector<float>& state, std::size_t stride, std::size_t i,
-                        const TracedRay& r) {
-        const float values[] = {r.origin[0],    r.origin[1],    r.origin[2], r.direction[0],
-                                r.direction[1], r.direction[2], r.t_max};
-        for (std::size_t k = 0; k < std::size(values); k++)
-            state[k * stride + i] = values[k];
-        state[ray_excluded * stride + i] = std::bit_cast<float>(r.excluded);
+    static Work of_paths(Rays rays, const RayLayout& layout) {
+        return {path_state(rays, layout), std::vector<float>(1)};
     }
+    static Work of_shadow_rays(Rays rays, const RayLayout& layout) {
+        return {shadow_state(rays, layout), std::vector<float>(result_field_count * layout.stride)};
+    }
+    std::vector<TracedHit> hits(std::size_t rays, const RayLayout& layout) const {
+        return read_hits(state, rays, layout);
+    }
+    std::vector<bool> blocked(std::size_t rays, const RayLayout& layout) const {
+        return read_blocked(results, rays, layout.stride);
+    }
+};
 
-    static Work of_paths(Rays rays, const Sizes& s) {
-        Work w{std::vector<float>(path_word_count * s.stride()), std::vector<float>(1)};
-        for (std::size_t i = 0; i < rays.size(); i++) {
-            put_ray(w.state, s.stride(), i, rays[i]);
-        }
-        return w;
-    }
-
-    static Work of_shadow_rays(Rays rays, const Sizes& s) {
-        Work w{std::vector<float>(shadow_word_count * s.stride()),
-               std::vector<float>(result_field_count * s.stride())};
-        for (std::size_t i = 0; i < rays.size(); i++) {
-            put_ray(w.state, s.stride(), i, rays[i]);
-            for (int channel = 0; channel < 3; channel++)
-                w.state[(shadow_contribution + channel) * s.stride() + i] =
-                    static_cast<float>(1 << channel);
-            w.state[shadow_slot * s.stride() + i] = std::bit_cast<float>(static_cast<int>(i));
-        }
-        return w;
-    }
-
-    std::vector<TracedHit> hits(const Sizes& s) const {
-        std::vector<TracedHit> list(s.rays);
-        for (std::size_t i = 0; i < s.rays; i++) {
-            auto word = [&](int field) { return state[field * s.stride() + i]; };
-            list[i] = {word(path_t), word(path_b1), word(path_b2),
-                       std::bit_cast<int>(word(path_primitive))};
-        }
-        return list;
-    }
-
-    std::vector<bool> blocked(const Sizes& s) const {
-        std::vector<bool> list(s.rays);
-        for (std::size_t i = 0; i < s.rays; i++) {
-            float r = results[i], g = results[s.stride() + i], b = results[2 * s.stride() + i];
-            list[i] = r == 0;
-            if (g != 2 * r || b != 4 * r || (r != 0 && r != 1))
-                throw std::runtime_error("wrong radiance arrived");
-        }
-        return list;
-    }
+/// Of one kernel over all segments.
+struct Traversal::Launch {
+    Stage stage;
+    std::size_t rays;
+    RayLayout layout;
 };
 
 /// What is asked of rays: a kernel, the state it starts from, and the answers in what it leaves.
 template<class Answer>
 struct Traversal::Question {
     Stage stage;
-    Work (*state)(Rays, const Sizes&);
-    std::vector<Answer> (Work::*read)(const Sizes&) const;
+    Work (*state)(Rays, const RayLayout&);
+    std::vector<Answer> (Work::*read)(std::size_t rays, const RayLayout&) const;
 };
 
 Traversal::Traversal(const RenderDevice& device, const ProgramOptions& options,
@@ -161,20 +121,20 @@ void Traversal::upload(std::span<const PrimitiveRecord> primitives) {
 
 template<class Answer>
 std::vector<Answer> Traversal::answers(Rays rays, const Question<Answer>& q) {
-    Sizes s(rays.size());
+    RayLayout layout = layout_of(rays.size());
     auto ask = [&](const Program& program) {
-        Work work = q.state(rays, s);
-        run_on_device(program, q.stage, s, work);
-        return (work.*q.read)(s);
+        Work work = q.state(rays, layout);
+        run_on_device(program, {q.stage, rays.size(), layout}, work);
+        return (work.*q.read)(rays.size(), layout);
     };
     std::vector<Answer> found = same_answers(ask(packets_), ask(streams_));
     if (host_share_ > 0) {
         Rays some = rays.first((rays.size() + host_share_ - 1) / host_share_);
-        Sizes part(some.size());
+        RayLayout part = layout_of(some.size());
         Work work = q.state(some, part);
-        run_on_host(q.stage, part, work);
-        host_answers_.rays += part.rays;
-        host_answers_.differing += differing((work.*q.read)(part), found);
+        run_on_host({q.stage, some.size(), part}, work);
+        host_answers_.rays += some.size();
+        host_answers_.differing += differing((work.*q.read)(some.size(), part), found);
     }
     return found;
 }
@@ -187,45 +147,47 @@ std::vector<bool> Traversal::occluded(Rays rays) {
     return answers<bool>(rays, {Stage::shadow, Work::of_shadow_rays, &Work::blocked});
 }
 
-RenderParams Traversal::params(const Sizes& s) const {
+RenderParams Traversal::params(const RayLayout& layout) const {
     RenderParams params{};
-    params.state_stride = params.result_stride = static_cast<int>(s.stride());
-    params.segment_size = params.segment_stride = segment;
+    params.state_stride = params.result_stride = static_cast<int>(layout.stride);
+    params.segment_size = static_cast<int>(layout.size);
+    params.segment_stride = static_cast<int>(layout.pitch);
     params.root = params.camera_root = scene_.root;
     params.tree_sizes = {extent_, scene_.bvh.side};
     return params;
 }
 
-void Traversal::run_on_host(Stage stage, const Sizes& s, Work& work) const {
+void Traversal::run_on_host(const Launch& l, Work& work) const {
     WaveMemory<float> memory{WorkSizes{}};
-    memory.counts = s.counts();
-    memory.statistics.resize(statistic_count * s.segments);
+    memory.counts = segment_counts(l.rays, l.layout);
+    memory.statistics.resize(statistic_count * l.layout.segments);
     memory.results = std::move(work.results);
-    auto& state = stage == Stage::shadow ? memory.shadow_state : memory.path_state;
+    auto& state = l.stage == Stage::shadow ? memory.shadow_state : memory.path_state;
     state = std::move(work.state);
     FeatureSet features = FeatureSet::all() - FeatureSet{feature_ray_streams};
-    HostLaunch<float> launch{scene_arrays(scene_), params(s), features, WaveParams{}, memory};
-    parallel_for(s.segments, [&](std::size_t number) {
-        run_work_item(stage, launch, 1, static_cast<int>(number));
+    HostLaunch<float> launch{scene_arrays(scene_), params(l.layout), features, WaveParams{},
+                             memory};
+    parallel_for(l.layout.segments, [&](std::size_t number) {
+        run_work_item(l.stage, launch, 1, static_cast<int>(number));
     });
     work.state = std::move(state);
     work.results = std::move(memory.results);
 }
 
-void Traversal::run_on_device(const Program& program, Stage stage, const Sizes& s,
-                              Work& work) const {
+void Traversal::run_on_device(const Program& program, const Launch& l, Work& work) const {
     WaveBuffers buffers; // empty where these kernels read nothing
-    Buffer<float>& state = stage == Stage::shadow ? buffers.shadow_state : buffers.path_state;
+    Buffer<float>& state = l.stage == Stage::shadow ? buffers.shadow_state : buffers.path_state;
     state = device_copy(d_, "state", work.state);
     buffers.results = device_copy(d_, "results", work.results);
-    buffers.counts = device_copy(d_, "counts", s.counts());
+    buffers.counts = device_copy(d_, "counts", segment_counts(l.rays, l.layout));
     buffers.statistics =
-        device_copy(d_, "statistics", std::vector<ulong>(statistic_count * s.segments));
-    cl::Kernel kernel = program.kernel(stage_names[static_cast<std::size_t>(stage)]);
-    bind_arguments(kernel, buffers_, buffers, Buffer<float>(), params(s));
+        device_copy(d_, "statistics", std::vector<ulong>(statistic_count * l.layout.segments));
+    cl::Kernel kernel = program.kernel(stage_names[static_cast<std::size_t>(l.stage)]);
+    bind_arguments(kernel, buffers_, buffers, Buffer<float>(), params(l.layout));
     kernel.setArg(wave_argument, WaveParams{});
     kernel.setArg(depth_argument, 1);
-    d_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(s.segments), cl::NDRange(1));
+    d_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(l.layout.segments),
+                                  cl::NDRange(1));
     d_.queue.finish();
     work.state = host_copy(d_, state);
     work.results = host_copy(d_, buffers.results);

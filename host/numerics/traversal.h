@@ -4,31 +4,17 @@
 
 #include "host/bvh/bvh.h"
 #include "host/flatten/device_scene.h"
+#include "host/numerics/ray_states.h"
 #include "host/waves/buffers.h"
 #include "host/waves/render_device.h"
 #include "host/waves/stages.h"
 
-#include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace parhelion::numerics {
-
-struct TracedRay {
-    std::array<float, 3> origin, direction;
-    float t_max = std::numeric_limits<float>::infinity();
-    int excluded = -1;
-};
-
-struct TracedHit {
-    float t, b1, b2;
-    int primitive; ///< -1: nothing
-
-    bool operator==(const TracedHit&) const = default;
-};
 
 /// Rays that went through the kernels as C++ too, and answers of other bits than the device's.
 struct HostAnswers {
@@ -56,16 +42,16 @@ public:
     HostAnswers take_host_answers() { return std::exchange(host_answers_, {}); }
 
 private:
-    struct Sizes;
+    struct Launch;
     struct Work;
     using Rays = std::span<const TracedRay>;
     template<class Answer>
     struct Question;
     template<class Answer>
     std::vector<Answer> answers(Rays rays, const Question<Answer>& question);
-    void run_on_device(const Program& program, Stage stage, const Sizes& s, Work& work) const;
-    void run_on_host(Stage stage, const Sizes& s, Work& work) const;
-    RenderParams params(const Sizes& s) const;
+    void run_on_device(const Program& program, const Launch& launch, Work& work) const;
+    void run_on_host(const Launch& launch, Work& work) const;
+    RenderParams params(const RayLayout& layout) const;
 
     const RenderDevice& d_;
     Program packets_, streams_;

@@ -3,6 +3,7 @@
 #include "tests/support/traversal.h"
 
 #include "host/numerics/shapes.h"
+#include "host/numerics/triangle_truth.h"
 #include "host/scene/meshes/mesh_obj.h"
 #include "tests/support/skip.h"
 
@@ -65,28 +66,14 @@ private:
     RTCScene scene_;
 };
 
-using Wide = std::array<double, 3>;
-Wide minus(const Wide& a, const Wide& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Wide cross(const Wide& a, const Wide& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Wide& a, const Wide& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// The plane of the triangle met in double precision: distance, the smallest barycentric, and how
 /// much a rounding error of the coordinates moves the distance, as a share of it.
 struct Truth {
     double t, inside, sensitivity;
 };
 Truth truth(const PrimitiveRecord& p, const TestRay& r) {
-    Wide a{p.ax, p.ay, p.az}, b{p.bx, p.by, p.bz}, c{p.cx, p.cy, p.cz};
-    Wide o{r.origin[0], r.origin[1], r.origin[2]},
-        d{r.direction[0], r.direction[1], r.direction[2]};
-    Wide e1 = minus(b, a), e2 = minus(c, a), n = cross(e1, e2), to = minus(a, o);
-    double facing = dot(d, n), t = dot(to, n) / facing;
-    Wide q = cross(to, d);
-    double v = dot(e2, q) / facing, w = -dot(e1, q) / facing;
-    double size = std::sqrt(dot(n, n)) * std::sqrt(dot(to, to));
-    return {t, std::min({1 - v - w, v, w}), size / std::fabs(dot(to, n))};
+    numerics::PlaneMeeting m = numerics::plane_meeting(p, r);
+    return {m.t, m.inside, m.normal * m.to_corner / std::fabs(m.height)};
 }
 
 /// Is the ray within rounding of the triangle's border?
