@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "host/catalogue/function_test.h"
+#include "host/numerics/probe_kernel.h"
 
 namespace parhelion::stress {
 namespace {

@@ -9,7 +9,7 @@
 #include <atomic>
 
 #include "host/numerics/measure.h"
-#include "host/numerics/probes.h"
+#include "host/numerics/probe_kernel.h"
 
 namespace parhelion::f32 {
 #include "kernels/stress/one_argument.h"

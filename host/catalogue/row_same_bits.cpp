@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "host/numerics/probes.h"
+#include "host/numerics/probe_kernel.h"
 
 namespace parhelion::stress {
 namespace {

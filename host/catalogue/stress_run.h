@@ -3,26 +3,31 @@
 
 #include "host/catalogue/check.h"
 #include "host/numerics/kernel_ways.h"
-#include "host/numerics/traversal.h"
 #include "host/progress.h"
-#include "host/waves/render_device.h"
 
 #include <cstdint>
 #include <functional>
-#include <map>
-#include <mutex>
-#include <optional>
+#include <memory>
 #include <string>
 
+namespace parhelion {
+class Program;
+struct RenderDevice;
+namespace numerics {
+class Traversal;
+}
+} // namespace parhelion
+
 namespace parhelion::stress {
+
+using numerics::Traversal;
 
 /// How much is tried. Rows scale their counts by it; what is small is exhausted in any case.
 enum class Effort { brief, quick, full };
 
 class StressRun {
 public:
-    StressRun(RenderDevice& d, const KernelWay& k, Effort e, std::uint64_t s, Progress& progress)
-        : device(d), kernels(k), effort(e), seed(s), progress_(progress) {}
+    StressRun(RenderDevice& d, const KernelWay& k, Effort e, std::uint64_t s, Progress& progress);
     /// Keeps its programs for the next run.
     ~StressRun();
     StressRun(const StressRun&) = delete;
@@ -45,10 +50,8 @@ public:
     const std::uint64_t seed;
 
 private:
-    Progress& progress_;
-    std::mutex talking_;
-    std::map<std::string, Program> programs_;
-    std::optional<Traversal> traversal_;
+    struct Kept;
+    std::unique_ptr<Kept> kept_;
 };
 
 /// Whether tests ask a row once, or once a way to compile kernels.

@@ -4,7 +4,7 @@
 #include "host/cl/device.h"
 #include "host/cl/driver_programs.h"
 #include "host/cl/program_cache.h"
-#include "host/feature_set.h"
+#include "host/cl/program_options.h"
 
 #include <cstdint>
 #include <optional>
@@ -12,14 +12,6 @@
 #include <vector>
 
 namespace parhelion {
-
-/// How kernel files are specialised. Nothing of a scene's values may enter: kinds only.
-struct ProgramOptions {
-    int lanes = 1;
-    FeatureSet features = FeatureSet::all();
-    bool portable = false; ///< without x86 intrinsics
-    bool checked = false;  ///< accesses ask whether they stay within their buffers; OpenCL C 2.0
-};
 
 /// What is compiled, and for what; whatever can change the result is in its key.
 struct ProgramSource {

@@ -1,10 +1,7 @@
-// Probes (kernels/stress): shared functions as words in, words out, on the host and on the device.
+// Probes (kernels/stress): shared functions as words in, words out, on the host.
 #pragma once
 
-#include "host/cl/buffer.h"
-#include "host/numerics/kernel_ways.h"
 #include "host/shared_maths.h"
-#include "host/waves/render_device.h"
 
 #include <bit>
 #include <span>
@@ -50,22 +47,6 @@ using WordArrays = std::vector<float>;
 WordArrays probe_inputs(const Probe& probe, int count, std::uint64_t seed);
 
 WordArrays run_on_host(const Probe& probe, const WordArrays& in, int count);
-
-/// kernels/stress/<file>.cl for a device: a group of probes, or other functions.
-Program stress_program(const RenderDevice& device, const std::string& file, const KernelWay& way);
-
-class ProbeKernel {
-public:
-    /// count: a multiple of 256, the work of one work-item.
-    ProbeKernel(const RenderDevice& device, const Program& program, int count);
-    void run(int number, const WordArrays& in, WordArrays& out);
-
-private:
-    cl::CommandQueue queue_;
-    cl::Kernel kernel_;
-    Buffer<float> in_, out_;
-    int count_;
-};
 
 /// The same bits, or both no number.
 inline bool same_bits(float a, float b) {

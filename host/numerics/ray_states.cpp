@@ -1,7 +1,7 @@
 // Rays laid out as the stages `intersect` and `shadow` find them, and what those left of them.
 #include "host/numerics/ray_states.h"
 
-#include "host/waves/buffers.h"
+#include "kernels/device/buffers.h"
 
 #include <algorithm>
 #include <bit>

@@ -4,7 +4,9 @@
 #include "host/cl/source.h"
 #include "host/parallel.h"
 #include "host/twin/wave_memory.h"
+#include "host/waves/buffers.h"
 #include "host/waves/kernel_arguments.h"
+#include "host/waves/render_device.h"
 
 #include <sys/types.h> // ulong, as the kernels call it
 
@@ -98,16 +100,28 @@ struct Traversal::Question {
     std::vector<Answer> (Work::*read)(std::size_t rays, const RayLayout&) const;
 };
 
+struct Traversal::Device {
+    const RenderDevice& device;
+    Program packets, streams;
+    SceneBuffers buffers; ///< its tree alone
+
+    Device(const RenderDevice& d, const ProgramOptions& options)
+        : device(d), packets(compile(d, with_streams(options, false))),
+          streams(compile(d, with_streams(options, true))) {}
+};
+
 Traversal::Traversal(const RenderDevice& device, const ProgramOptions& options,
                      std::size_t host_share)
-    : d_(device), packets_(compile(device, with_streams(options, false))),
-      streams_(compile(device, with_streams(options, true))), host_share_(host_share) {}
+    : device_(std::make_unique<Device>(device, options)), host_share_(host_share) {}
+
+Traversal::~Traversal() = default;
 
 void Traversal::upload(const Bvh& bvh, int root) {
-    buffers_.bvh_nodes =
-        Buffer<BvhNode>(d_.context, d_.queue, "nodes", bvh.nodes.data(), bvh.nodes.size());
-    buffers_.bvh_leaves =
-        Buffer<BvhLine>(d_.context, d_.queue, "leaves", bvh.leaves.data(), bvh.leaves.size());
+    const RenderDevice& d = device_->device;
+    device_->buffers.bvh_nodes =
+        Buffer<BvhNode>(d.context, d.queue, "nodes", bvh.nodes.data(), bvh.nodes.size());
+    device_->buffers.bvh_leaves =
+        Buffer<BvhLine>(d.context, d.queue, "leaves", bvh.leaves.data(), bvh.leaves.size());
     scene_.bvh = bvh;
     scene_.root = root;
     extent_ = bvh_extent(bvh, root);
@@ -127,7 +141,7 @@ std::vector<Answer> Traversal::answers(Rays rays, const Question<Answer>& q) {
         run_on_device(program, {q.stage, rays.size(), layout}, work);
         return (work.*q.read)(rays.size(), layout);
     };
-    std::vector<Answer> found = same_answers(ask(packets_), ask(streams_));
+    std::vector<Answer> found = same_answers(ask(device_->packets), ask(device_->streams));
     if (host_share_ > 0) {
         Rays some = rays.first((rays.size() + host_share_ - 1) / host_share_);
         RayLayout part = layout_of(some.size());
@@ -175,23 +189,24 @@ void Traversal::run_on_host(const Launch& l, Work& work) const {
 }
 
 void Traversal::run_on_device(const Program& program, const Launch& l, Work& work) const {
+    const RenderDevice& d = device_->device;
     WaveBuffers buffers; // empty where these kernels read nothing
     Buffer<float>& state = l.stage == Stage::shadow ? buffers.shadow_state : buffers.path_state;
-    state = device_copy(d_, "state", work.state);
-    buffers.results = device_copy(d_, "results", work.results);
-    buffers.counts = device_copy(d_, "counts", segment_counts(l.rays, l.layout));
+    state = device_copy(d, "state", work.state);
+    buffers.results = device_copy(d, "results", work.results);
+    buffers.counts = device_copy(d, "counts", segment_counts(l.rays, l.layout));
     buffers.statistics =
-        device_copy(d_, "statistics", std::vector<ulong>(statistic_count * l.layout.segments));
+        device_copy(d, "statistics", std::vector<ulong>(statistic_count * l.layout.segments));
     cl::Kernel kernel = program.kernel(stage_names[static_cast<std::size_t>(l.stage)]);
-    bind_arguments(kernel, buffers_, buffers, Buffer<float>(), params(l.layout));
+    bind_arguments(kernel, device_->buffers, buffers, Buffer<float>(), params(l.layout));
     kernel.setArg(wave_argument, WaveParams{});
     kernel.setArg(depth_argument, 1);
-    d_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(l.layout.segments),
-                                  cl::NDRange(1));
-    d_.queue.finish();
-    work.state = host_copy(d_, state);
-    work.results = host_copy(d_, buffers.results);
-    program.store(d_.cache);
+    d.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(l.layout.segments),
+                                 cl::NDRange(1));
+    d.queue.finish();
+    work.state = host_copy(d, state);
+    work.results = host_copy(d, buffers.results);
+    program.store(d.cache);
 }
 
 } // namespace parhelion::numerics

@@ -3,16 +3,21 @@
 #pragma once
 
 #include "host/bvh/bvh.h"
+#include "host/cl/program_options.h"
 #include "host/flatten/device_scene.h"
 #include "host/numerics/ray_states.h"
-#include "host/waves/buffers.h"
-#include "host/waves/render_device.h"
 #include "host/waves/stages.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
+
+namespace parhelion {
+class Program;
+struct RenderDevice;
+} // namespace parhelion
 
 namespace parhelion::numerics {
 
@@ -29,6 +34,7 @@ public:
     /// well; 0: none of it.
     Traversal(const RenderDevice& device, const ProgramOptions& options,
               std::size_t host_share = 0);
+    ~Traversal();
 
     void upload(const Bvh& bvh, int root);
     /// A tree over these alone.
@@ -53,12 +59,11 @@ private:
     void run_on_host(const Launch& launch, Work& work) const;
     RenderParams params(const RayLayout& layout) const;
 
-    const RenderDevice& d_;
-    Program packets_, streams_;
+    struct Device; ///< programs and buffers
+    std::unique_ptr<Device> device_;
     std::size_t host_share_;
     HostAnswers host_answers_;
-    SceneBuffers buffers_; ///< its tree alone
-    DeviceScene scene_;    ///< the host's: a tree and nothing else
+    DeviceScene scene_; ///< the host's: a tree and nothing else
     float extent_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include "host/error.h"
 #include "host/film/film_image.h"
 #include "host/flatten/scene_features.h"
+#include "host/waves/device_waves.h"
 #include "host/waves/render_params.h"
 #include "host/waves/wavefront.h"
 

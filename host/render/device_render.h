@@ -6,10 +6,15 @@
 #include "host/progress.h"
 #include "host/render/report.h"
 #include "host/scene/scene.h"
-#include "host/waves/device_waves.h"
-#include "host/waves/render_device.h"
+#include "host/waves/work_sizes.h"
+
+#include <sys/types.h> // ulong, as the kernels call it
+
+#include <span>
 
 namespace parhelion {
+
+struct RenderDevice; // host/waves/render_device.h
 
 struct RenderOptions {
     WorkSplit split;

@@ -1,7 +1,9 @@
 // What all kernels of a render are told.
 #pragma once
 
-#include "host/waves/wave_stream.h"
+#include "host/flatten/aov_plan.h"
+#include "host/flatten/device_scene.h"
+#include "host/waves/work_sizes.h"
 
 namespace parhelion {
 

@@ -1,6 +1,7 @@
 // Kernels that look after the bounds of their buffers: on the host, where they always do, with all
 // scene files of the repository; on the device they leave none, and make the same image.
 #include "host/film/film_image.h"
+#include "host/waves/device_waves.h"
 #include "host/waves/render_params.h"
 #include "tests/support/every_switch.h"
 #include "tests/support/host_render.h"

@@ -17,13 +17,7 @@ namespace parhelion::test {
 using numerics::mean_rgb;
 
 /// The device of this test process: PARHELION_DEVICE, or the default one.
-inline RenderDevice& test_device() {
-    static RenderDevice device = [] {
-        const char* selector = std::getenv("PARHELION_DEVICE");
-        return RenderDevice(choose_device(selector ? selector : ""));
-    }();
-    return device;
-}
+RenderDevice& test_device();
 
 inline std::string source_file(const std::string& path) {
     return fmt::format("{}/{}", PARHELION_SOURCE_DIR, path);
