@@ -10,17 +10,18 @@
 
 // Name in files, the host's struct (<Name>Bsdf), what it does with light from below:
 //   opaque       nothing: it answers for its upper side, and is turned over to be seen from below
+//   matte        so, and what it spreads fades towards a smooth mesh's true horizon where soft shading normals are asked for
 //   transparent  it answers for both sides
 //   passing      so, and it can let a ray go straight on, as if there were no surface
 #define MATERIALS(X)                                                                               \
-    X(diffuse, Diffuse, opaque)                                                                    \
+    X(diffuse, Diffuse, matte)                                                                     \
     X(conductor, Conductor, opaque)                                                                \
     X(dielectric, Dielectric, transparent)                                                         \
     X(thindielectric, ThinDielectric, passing)                                                     \
     X(roughconductor, RoughConductor, opaque)                                                      \
     X(roughdielectric, RoughDielectric, transparent)                                               \
     X(null, Null, passing)                                                                         \
-    X(roughdiffuse, RoughDiffuse, opaque)
+    X(roughdiffuse, RoughDiffuse, matte)
 
 // Parameters: what it is (host/scene/parameter.h), name, value of one that is missing, where its numbers may lie
 // (a domain of host/scene/mitsuba/number_parameters.cpp, or one in brackets), what it becomes in a MaterialRecord: one of
@@ -63,12 +64,15 @@
 enum MaterialKind { MATERIALS(KIND_MATERIAL) material_kind_count };
 
 // Bit k: material kind k is so.
+#define SIDES_transparent 0
 #define SIDES_opaque 1
-#define SIDES_transparent 2
+#define SIDES_matte 3
 #define SIDES_passing 4
-#define OPAQUE_BIT(name, Name, sides) | ((SIDES_##sides == 1) << material_##name)
-#define PASSING_BIT(name, Name, sides) | ((SIDES_##sides == 4) << material_##name)
+#define OPAQUE_BIT(name, Name, sides) | ((SIDES_##sides & 1) << material_##name)
+#define MATTE_BIT(name, Name, sides) | ((SIDES_##sides >> 1 & 1) << material_##name)
+#define PASSING_BIT(name, Name, sides) | ((SIDES_##sides >> 2 & 1) << material_##name)
 #define OPAQUE_MATERIALS (0 MATERIALS(OPAQUE_BIT))
+#define MATTE_MATERIALS (0 MATERIALS(MATTE_BIT))
 #define PASSING_MATERIALS (0 MATERIALS(PASSING_BIT))
 
 #endif

@@ -61,7 +61,7 @@ FN Real consistent_share(ShadingSide s, vec3 wi) {
     return sel(dot3(s.n, wi) * dot3(s.g, wi) <= R(0.), R(0.), R(1.));
 }
 
-/// The same where the light of diffuse surfaces fades towards the horizon of the geometry (Chiang,
+/// The same where the light of matte surfaces fades towards the horizon of the geometry (Chiang,
 /// Li and Burley 2019, "Taming the shadow terminator"): at most 1, and 1 where the normals agree.
 /// It hides the edges of faces, but takes the image further from that of the surface the mesh
 /// stands for (docs/accuracy.md).
@@ -75,8 +75,10 @@ FN Real softened_share(ShadingSide s, vec3 wi) {
 /// Share of the light from or to wi that counts on this material.
 FN Real counted_share(ShadingSide s, Material m, vec3 wi) {
     Real share = consistent_share(s, wi);
-    if (HAS(soft_terminator) && HAS(bsdf_diffuse))
-        share = sel(m.kind == material_diffuse, softened_share(s, wi), share);
+    if (HAS(soft_terminator)) {
+        Mask matte = ((((Int)1) << m.kind) & MATTE_MATERIALS) != 0;
+        share = sel(matte, softened_share(s, wi), share);
+    }
     // No surface at all hides nothing.
     if (HAS(bsdf_null)) share = sel(m.kind == material_null, R(1.), share);
     return share;
