@@ -55,7 +55,7 @@ static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
     add_light_table(scene, choice, out);
     out.features = scene_features(scene, out);
     add_energy_tables(scene, out);
-    decide_energy_compensation(out);
+    decide_energy_compensation(scene, out);
     if (out.features.has(feature_filter_splatting))
         out.filter_values = make_filter_values(scene.film.filter);
     if (out.features.has(feature_filter_sampling))

@@ -2,6 +2,7 @@
 #include "host/flatten/scene_features.h"
 
 #include "host/flatten/aov_plan.h"
+#include "host/flatten/energy_table.h"
 #include "host/flatten/filter_table.h"
 #include "host/flatten/material_records.h"
 
@@ -27,6 +28,10 @@ constexpr std::size_t primitives_for_packets = 500'000;
 
 constexpr int no_limit = std::numeric_limits<int>::max(); // of a path's edges
 
+std::string counted(std::size_t count, const char* one) {
+    return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
 /// "2 of 5 materials": decides a feature that any of them needs.
 template<class Records, class Needs>
 void decide_by_count(FeatureDecisions& out, Feature f, const Records& records, const char* name,
@@ -49,6 +54,7 @@ void decide_kinds(FeatureDecisions& out, const std::array<Feature, N>& features,
 }
 
 bool is_beckmann(const MaterialRecord& m) { return is_rough(m) && (m.distribution & 1); }
+bool is_matte(const MaterialRecord& m) { return (MATTE_MATERIALS >> m.kind) & 1; }
 bool lets_through(const MaterialRecord& m) { return (PASSING_MATERIALS >> m.kind) & 1; }
 
 void decide_materials(const std::vector<MaterialRecord>& materials, FeatureDecisions& out) {
@@ -100,7 +106,7 @@ void decide_lights(const DeviceScene& records, FeatureDecisions& out) {
     decide_kinds(out, emitter_features, records.lights, "lights",
                  [](const LightRecord& light) { return light.kind; });
     std::size_t lights = records.lights.size();
-    out.decide(feature_several_lights, lights > 1, fmt::format("{} lights", lights));
+    out.decide(feature_several_lights, lights > 1, counted(lights, "light"));
 }
 
 /// What of light transport an integrator asks for, and the scene has.
@@ -111,7 +117,7 @@ struct Transport {
 
 std::string edges(int longest) {
     return longest == no_limit ? "paths of any length"
-                               : fmt::format("paths of at most {} edges", longest);
+                               : "paths of at most " + counted(longest, "edge");
 }
 
 Transport transport(const Integrator& integrator, const DeviceScene& records) {
@@ -123,8 +129,9 @@ Transport transport(const Integrator& integrator, const DeviceScene& records) {
     }
     t.lit = !records.lights.empty();
     int longest = longest_path(integrator);
-    bool seen = std::any_of(records.lights.begin(), records.lights.end(),
-                            [](const LightRecord& light) { return meetable[light.kind] != 0; });
+    auto met = std::count_if(records.lights.begin(), records.lights.end(),
+                             [](const LightRecord& light) { return meetable[light.kind] != 0; });
+    bool seen = met > 0;
     t.emission = seen && longest != 0;
     t.several = longest >= 2;
     t.next_event = t.lit && t.several && integrator.emitter_samples;
@@ -136,8 +143,26 @@ Transport transport(const Integrator& integrator, const DeviceScene& records) {
     t.sees = seen || (t.lit && longest >= 3) || t.through;
     t.scatters = t.several && integrator.bsdf_samples && t.sees;
     t.roulette = t.scatters && longest > integrator.rr_depth;
-    t.found = fmt::format("{} lights, {}", records.lights.size(), edges(longest));
+    t.found = fmt::format("{}, {} of which rays can meet, {}",
+                          counted(records.lights.size(), "light"), met, edges(longest));
     return t;
+}
+
+/// After vertex normals.
+void decide_shading_normals(const Integrator& integrator, const DeviceScene& records,
+                            const Transport& t, FeatureDecisions& out) {
+    bool smooth = out.has(feature_vertex_normals), shaded = t.next_event || t.scatters;
+    auto matte = std::count_if(records.materials.begin(), records.materials.end(), is_matte);
+    std::string found =
+        fmt::format("{} smooth shapes{}, shading normals are {}", smooth ? "some" : "no",
+                    shaded ? "" : fmt::format(", no surface is lit ({})", t.found),
+                    shading_normals_names[static_cast<std::size_t>(integrator.shading_normals)]);
+    bool wanted = smooth && shaded;
+    out.decide(feature_consistent_normals,
+               wanted && integrator.shading_normals != ShadingNormals::raw, found);
+    out.decide(feature_soft_terminator,
+               wanted && matte > 0 && integrator.shading_normals == ShadingNormals::soft,
+               fmt::format("{}, {} of {} materials matte", found, matte, records.materials.size()));
 }
 
 void decide_transport(const Scene& scene, const DeviceScene& records, FeatureDecisions& out) {
@@ -148,10 +173,15 @@ void decide_transport(const Scene& scene, const DeviceScene& records, FeatureDec
     out.decide(feature_next_event, t.next_event,
                fmt::format("{}, lights are {}", t.found, sampled));
     out.decide(feature_light_tree, t.next_event && !records.light_tree.nodes.empty(),
-               fmt::format("{} nodes, lights are {}", records.light_tree.nodes.size(), sampled));
-    decide_by_count(out, feature_straight_through, records.materials,
-                    "materials let rays go straight on",
-                    [&](const MaterialRecord& m) { return t.through && lets_through(m); });
+               fmt::format("{} of the tree, {}, lights are {}",
+                           counted(records.light_tree.nodes.size(), "node"), t.found, sampled));
+    auto passing = std::count_if(records.materials.begin(), records.materials.end(), lets_through);
+    out.decide(feature_straight_through, t.through,
+               fmt::format("{} of {} materials let rays go straight on{}", passing,
+                           records.materials.size(),
+                           integrator.kind == IntegratorKind::path
+                               ? ""
+                               : ", which this integrator takes for surfaces like others"));
     out.decide(feature_scattering, t.scatters, t.found);
     out.decide(feature_russian_roulette, t.roulette,
                fmt::format("{}, roulette from edge {} on", t.found, integrator.rr_depth));
@@ -159,15 +189,7 @@ void decide_transport(const Scene& scene, const DeviceScene& records, FeatureDec
         decide_by_request(out, feature_hide_emitters, integrator.hide_emitters);
     else
         out.decide(feature_hide_emitters, false, t.found);
-    bool shaded = out.has(feature_vertex_normals) && (t.next_event || t.scatters);
-    std::string normals =
-        shading_normals_names[static_cast<std::size_t>(integrator.shading_normals)];
-    std::string smooth = fmt::format("{}, shading normals are {}",
-                                     shaded ? "smooth shapes" : "no smooth shapes", normals);
-    out.decide(feature_consistent_normals,
-               shaded && integrator.shading_normals != ShadingNormals::raw, smooth);
-    out.decide(feature_soft_terminator,
-               shaded && integrator.shading_normals == ShadingNormals::soft, smooth);
+    decide_shading_normals(integrator, records, t, out);
 }
 
 void decide_camera_and_sampler(const Scene& scene, const DeviceScene& records,
@@ -177,7 +199,7 @@ void decide_camera_and_sampler(const Scene& scene, const DeviceScene& records,
     const char* name = sample_pattern_names[static_cast<std::size_t>(sampler.pattern)];
     out.decide(feature_faure, pattern, name);
     out.decide(feature_replicates, pattern && sampler.replicates > 1,
-               fmt::format("{}, {} replicates", name, sampler.replicates));
+               fmt::format("{}, {}", name, counted(sampler.replicates, "replicate")));
     out.decide(feature_thin_lens, scene.camera.aperture_radius > 0.0,
                fmt::format("aperture of radius {}", scene.camera.aperture_radius));
     out.decide(feature_far_camera, records.frame.start > 0.0,
@@ -226,10 +248,15 @@ FeatureDecisions scene_features(const Scene& scene, const DeviceScene& records) 
     return out;
 }
 
-void decide_energy_compensation(DeviceScene& records) {
+void decide_energy_compensation(const Scene& scene, DeviceScene& records) {
     std::size_t values = records.energy_tables.size();
-    records.features.decide(feature_energy_compensation, values > 0,
-                            fmt::format("{} values of energy tables", values));
+    auto asking =
+        std::count_if(scene.materials.begin(), scene.materials.end(),
+                      [](const Material& m) { return wants_energy_compensation(m.bsdf); });
+    std::string found = fmt::format("{} of {} materials make up for what they scatter more than "
+                                    "once, {} of energy tables",
+                                    asking, scene.materials.size(), counted(values, "value"));
+    records.features.decide(feature_energy_compensation, values > 0, found);
 }
 
 bool traced_in_streams(std::size_t primitives) { return primitives > primitives_for_packets; }

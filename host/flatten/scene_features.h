@@ -13,7 +13,7 @@ namespace parhelion {
 FeatureDecisions scene_features(const Scene& scene, const DeviceScene& records);
 
 /// After energy tables are made, or not.
-void decide_energy_compensation(DeviceScene& records);
+void decide_energy_compensation(const Scene& scene, DeviceScene& records);
 
 /// Features that cost time but change no image where a scene does not need them: every kind of
 /// material, emitter and shape, and what looks for vertex normals, back materials and so on.

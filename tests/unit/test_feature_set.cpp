@@ -56,10 +56,48 @@ TEST_CASE("Feature decisions: each is made once, and says what was found") {
     auto why = make_device_scene(two_of_every()).features.reasons();
     CHECK(why.at("shape_disk") != why.at("shape_triangle"));
     CHECK(make_device_scene(nothing).features.reasons().at("several_lights") == "0 lights");
+    CHECK(make_device_scene(nothing).features.why(feature_next_event) ==
+          "0 lights, 0 of which rays can meet, paths of any length, lights are sampled");
     // Hidden from a view of normals by the camera's tree alone.
     nothing.integrator.hide_emitters = true;
     CHECK(make_device_scene(nothing).features.why(feature_hide_emitters) == "asked for");
     nothing.integrator.kind = IntegratorKind::normals;
     CHECK(make_device_scene(nothing).features.why(feature_hide_emitters) ==
           "no light transport is asked for");
+}
+
+TEST_CASE("Feature decisions: what is off because of something else says so") {
+    Scene scene = two_of_every();
+    auto why = [&](Feature f) { return make_device_scene(scene).features.why(f); };
+    auto begins = [](const std::string& text, const char* with) { return text.starts_with(with); };
+    CHECK(begins(why(feature_consistent_normals), "some smooth shapes, shading normals are"));
+    scene.integrator.max_depth = 1;
+    CHECK(begins(why(feature_consistent_normals), "some smooth shapes, no surface is lit ("));
+    CHECK(why(feature_light_tree).find("paths of at most 1 edge,") != std::string::npos);
+    scene.integrator.kind = IntegratorKind::depth;
+    CHECK(why(feature_light_tree).find("no light transport is asked for") != std::string::npos);
+    scene = two_of_every();
+    scene.materials = {{"", {}, NullBsdf{}}, {"", {}, DiffuseBsdf{}}};
+    for (Shape& shape : scene.shapes)
+        shape.material_front = shape.material_back = 0;
+    CHECK(why(feature_straight_through) == "1 of 2 materials let rays go straight on");
+    scene.integrator.kind = IntegratorKind::direct;
+    CHECK(begins(why(feature_straight_through), "1 of 2 materials let rays go straight on, which"));
+    scene.shapes.clear();
+    scene.emitters = {PointEmitter{}};
+    CHECK(begins(why(feature_emission), "1 light, 0 of which rays can meet"));
+}
+
+TEST_CASE("Feature decisions: soft shading normals are for matte materials") {
+    Scene scene = two_of_every();
+    scene.integrator.shading_normals = ShadingNormals::soft;
+    for (const Bsdf& bsdf :
+         {Bsdf(DiffuseBsdf{}), Bsdf(RoughDiffuseBsdf{}), Bsdf(ConductorBsdf{})}) {
+        scene.materials = {{"", {}, bsdf}};
+        for (Shape& shape : scene.shapes)
+            shape.material_front = shape.material_back = 0;
+        bool metal = std::holds_alternative<ConductorBsdf>(bsdf);
+        CHECK(make_device_scene(scene).features.has(feature_soft_terminator) == !metal);
+        CHECK(make_device_scene(scene).features.has(feature_consistent_normals));
+    }
 }
