@@ -56,45 +56,13 @@ ShapeRecord shape_record(const Shape& shape, int flags, const IndexedGeometry& g
     return s;
 }
 
-/// The vertices of a mesh that its triangles use: its points, in their order.
-struct UsedVertices {
-    std::size_t count;
-    // Both empty where all are used.
-    std::vector<std::uint32_t> points;   ///< of each vertex
-    std::vector<std::uint32_t> vertices; ///< of each point
-
-    std::uint32_t point(std::uint32_t vertex) const {
-        return points.empty() ? vertex : points[vertex];
-    }
-    std::size_t vertex(std::size_t point) const {
-        return vertices.empty() ? point : vertices[point];
-    }
-};
-
-UsedVertices used_vertices(const Mesh& mesh) {
-    std::vector<std::uint32_t> used(mesh.positions.size()), vertices;
-    for (const glm::uvec3& t : mesh.triangles)
-        used[t.x] = used[t.y] = used[t.z] = 1;
-    auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1u));
-    if (count == used.size()) return {count, {}, {}};
-    vertices.reserve(count);
-    for (std::size_t i = 0; i < used.size(); i++)
-        if (used[i] != 0) {
-            used[i] = static_cast<std::uint32_t>(vertices.size());
-            vertices.push_back(static_cast<std::uint32_t>(i));
-        }
-    return {count, std::move(used), std::move(vertices)};
-}
-
 /// The place of the first.
-std::size_t add_points(const Mesh& mesh, const UsedVertices& used, Attributes some,
-                       DeviceScene& out) {
+std::size_t add_points(const Mesh& mesh, Attributes some, DeviceScene& out) {
     auto& points = out.geometry.points;
     std::size_t first = points.size(), words = some.point_words();
-    points.resize(first + used.count * words);
-    parallel_for(used.count, [&](std::size_t i) {
-        std::size_t v = used.vertex(i);
-        float* point = &points[first + i * words];
+    points.resize(first + mesh.positions.size() * words);
+    parallel_for(mesh.positions.size(), [&](std::size_t v) {
+        float* point = &points[first + v * words];
         write(out.frame.point(mesh.positions[v]), point);
         if (some.normals)
             write(mesh.normals.empty() ? glm::dvec3(0.0) : mesh.normals[v], point + POINT_NORMAL);
@@ -127,14 +95,12 @@ IndexedPrimitiveRecord primitive(std::size_t a, std::size_t b, std::size_t c, fl
             -1};
 }
 
-void add_triangles(const Mesh& mesh, const UsedVertices& used, std::size_t first_point,
-                   std::size_t point_words, IndexedGeometry& out) {
+void add_triangles(const Mesh& mesh, std::size_t first_point, std::size_t point_words,
+                   IndexedGeometry& out) {
     std::size_t first = out.primitives.size();
     out.primitives.resize(first + mesh.triangles.size());
     parallel_for(mesh.triangles.size(), [&](std::size_t i) {
-        auto place = [&](std::uint32_t vertex) {
-            return first_point + used.point(vertex) * point_words;
-        };
+        auto place = [&](std::uint32_t vertex) { return first_point + vertex * point_words; };
         const glm::uvec3& t = mesh.triangles[i];
         auto number = static_cast<int>(first + i);
         out.primitives[first + i] = primitive(place(t.x), place(t.y), place(t.z), 0.f, out);
@@ -145,10 +111,9 @@ void add_triangles(const Mesh& mesh, const UsedVertices& used, std::size_t first
 void add_shape(const Mesh& mesh, const Shape& shape, Attributes some, DeviceScene& out) {
     int flags = geometry_triangle | (mesh.normals.empty() ? 0 : PRIMITIVE_NORMALS) |
                 (mesh.uvs.empty() || !some.uvs ? 0 : PRIMITIVE_UVS);
-    UsedVertices used = used_vertices(mesh);
-    std::size_t first = add_points(mesh, used, some, out);
+    std::size_t first = add_points(mesh, some, out);
     out.geometry.shapes.push_back(shape_record(shape, flags, out.geometry));
-    add_triangles(mesh, used, first, some.point_words(), out.geometry);
+    add_triangles(mesh, first, some.point_words(), out.geometry);
 }
 
 /// A shape of one primitive with three points of its own.

@@ -13,9 +13,9 @@
 
 namespace parhelion {
 
-/// Triangles with shared vertices. `normals` and `uvs` are empty or as long as `positions`.
-/// `flip_normals` is applied on loading (winding and vertex normals), `face_normals` drops the
-/// vertex normals.
+/// Triangles with shared vertices, each used by some. `normals` and `uvs` are empty or as long as
+/// `positions`. `flip_normals` is applied on loading (winding and vertex normals), `face_normals`
+/// drops the vertex normals.
 struct Mesh {
     std::vector<glm::dvec3> positions;
     std::vector<glm::dvec3> normals; ///< unit length
