@@ -90,6 +90,9 @@ int run_catalogue(const StressCommand& c) {
     const Effort effort = effort_of(c);
     std::vector<Row> rows = wanted_rows(c.filter);
     if (c.list) {
+        if (!c.json_file.empty() || !c.report_folder.empty())
+            throw InputError("--list: prints names and runs nothing (accepted without --json and "
+                             "--report)");
         c.brief ? list_tests(rows) : list_rows(rows);
         return static_cast<int>(ExitCode::ok);
     }

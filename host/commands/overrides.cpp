@@ -86,6 +86,11 @@ void check_replicates(const Sampler& sampler) {
         throw InputError(fmt::format(
             "--replicates {}: independent samples have no pattern (accepted: --sampler faure)",
             sampler.replicates));
+    if (sampler.replicates > sampler.samples_per_pixel)
+        throw InputError(fmt::format(
+            "--replicates {}: a pixel has {} (accepted: a number up to that)", sampler.replicates,
+            sampler.samples_per_pixel == 1 ? "1 sample"
+                                           : fmt::format("{} samples", sampler.samples_per_pixel)));
 }
 
 bool is_cropped(const Film& film) {
@@ -130,8 +135,8 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (command.filter_method)
         film.filter_method = named("--filter-by", *command.filter_method, filter_methods);
     if (command.replicates) scene.sampler.replicates = *command.replicates;
-    check_replicates(scene.sampler);
     if (command.samples) scene.sampler.samples_per_pixel = *command.samples;
+    check_replicates(scene.sampler);
     if (command.max_depth) scene.integrator.max_depth = *command.max_depth;
     if (command.rr_depth) scene.integrator.rr_depth = *command.rr_depth;
     if (command.seed) scene.sampler.seed = *command.seed;

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -28,6 +30,9 @@ int become(const std::string& program, const StandardStreams& streams, char** ar
         std::filesystem::read_symlink("/proc/self/exe").replace_filename(program);
     streams.give_back();
     ::execv(beside.c_str(), argv);
+    if (errno != ENOENT)
+        return fail(ExitCode::bad_input, fmt::format("{}: {} cannot be started: {}", argv[1],
+                                                     beside.string(), std::strerror(errno)));
     return fail(ExitCode::bad_input,
                 fmt::format("{}: this subcommand is a program of its own, {}, which is not beside "
                             "this one; cmake --build FOLDER builds it",

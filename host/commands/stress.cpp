@@ -32,7 +32,7 @@ Subcommand stress_subcommand(std::function<int(const StressCommand&)> run) {
                      "Show the rows and end; with --brief: what tests ask, a line each"},
                     {"--lanes",
                      &c->lanes,
-                     "Paths a work-item handles at once: 16, 8 or 1",
+                     "Paths a work-item handles at once: 16, 8 or 1; 0 for what suits the device",
                      {.domain = lanes_domain}},
                     {"--portable", &c->portable, "Kernels without x86 intrinsics"},
                     {"--report", &c->report_folder, "Folder for a page with tables and plots"},

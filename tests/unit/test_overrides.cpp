@@ -95,7 +95,7 @@ std::vector<Precedence> table() {
         {"--spp", {"--spp", "9"}, sampler(&Sampler::samples_per_pixel), "4", "21", "9"},
         {"--seed", {"--seed", "8"}, sampler(&Sampler::seed), "0", "4", "8"},
         {"--sampler", {"--sampler", "independent"}, sampler(&Sampler::pattern), "0", "0", "1"},
-        {"--replicates", {"--replicates", "8"}, sampler(&Sampler::replicates), "1", "1", "8"},
+        {"--replicates", {"--replicates", "4"}, sampler(&Sampler::replicates), "1", "1", "4"},
         {"--max-depth", {"--max-depth", "2"}, integrator(&Integrator::max_depth), "-1", "7", "2"},
         {"--rr-depth", {"--rr-depth", "9"}, integrator(&Integrator::rr_depth), "5", "3", "9"},
         {"--integrator",
@@ -202,6 +202,7 @@ TEST_CASE("Overrides: values that cannot be are refused", "[overrides]") {
                                    {"--sampler", "halton"},
                                    {"--filter-by", "hand"},
                                    {"--sampler", "independent", "--replicates", "2"},
+                                   {"--sampler", "faure", "--spp", "7", "--replicates", "8"},
                                    {"--shading-normals", "smooth"}}) {
         INFO(wrong[0] << " " << wrong[1]);
         CHECK_THROWS_AS(scene_after(full, wrong), InputError);
@@ -210,6 +211,7 @@ TEST_CASE("Overrides: values that cannot be are refused", "[overrides]") {
                                    {"--max-depth", "-1"},
                                    {"--rr-depth", "1"},
                                    {"--sampler", "independent", "--replicates", "1"},
+                                   {"--sampler", "faure", "--spp", "8", "--replicates", "8"},
                                    {"--size", "65536x1"},
                                    {"--size", "1x65536"},
                                    {"--crop", "49,39,1,1"}})
