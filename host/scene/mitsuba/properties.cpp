@@ -41,7 +41,10 @@ const Parameter* Properties::find(std::string_view name) const {
     return nullptr;
 }
 
-bool Properties::has(std::string_view name) const { return find(name) != nullptr; }
+bool Properties::has(std::string_view name) {
+    if (!contains(known_, name)) known_.emplace_back(name);
+    return find(name) != nullptr;
+}
 
 const SourceLocation& Properties::location_of(std::string_view name) const {
     const Parameter* const parameter = find(name);
@@ -50,6 +53,7 @@ const SourceLocation& Properties::location_of(std::string_view name) const {
 
 const Parameter* Properties::take(std::string_view name) {
     if (!contains(asked_, name)) asked_.emplace_back(name);
+    if (!contains(known_, name)) known_.emplace_back(name);
     for (const Child& child : object_.children)
         if (child.name == name)
             refuse(child.location,
@@ -195,7 +199,7 @@ void Properties::finish() const {
     for (const Parameter& parameter : object_.parameters)
         if (!contains(asked_, parameter.name))
             refuse(parameter.location, fmt::format("{} has no parameter {} (accepted: {})", title(),
-                                                   in_quotes(parameter.name), joined(asked_)));
+                                                   in_quotes(parameter.name), joined(known_)));
     for (const Child& child : object_.children)
         if (!contains(asked_tags_, target(child).tag))
             refuse(child.location,

@@ -22,7 +22,7 @@ public:
     const Object& object() const { return object_; }
     const SourceLocation& location() const { return object_.location; }
 
-    bool has(std::string_view name) const;
+    bool has(std::string_view name);
     /// The line of a parameter that is there, else of the plugin.
     const SourceLocation& location_of(std::string_view name) const;
 
@@ -67,7 +67,8 @@ private:
     const Document& document_;
     const Object& object_;
     std::vector<std::string>& notes_;
-    std::vector<std::string> asked_;      ///< parameter names, for the message of `finish`
+    std::vector<std::string> asked_;      ///< names of parameters that were read
+    std::vector<std::string> known_;      ///< and of those that could have been
     std::vector<std::string> asked_tags_; ///< kinds of children
 };
 
