@@ -54,6 +54,8 @@ must_find includes "host/film may not" '#include "host/waves/pipeline.h"' host/f
 must_find includes "host/render may not" '#include "host/commands/render.h"' host/render/code.cpp
 must_find includes "host/numerics may not" '#include "host/catalogue/rows.h"' host/numerics/code.cpp
 must_find includes "host/commands may not" '#include "host/numerics/shapes.h"' host/commands/code.cpp
+must_find includes "host includes its own" '#include <host/error.h>' host/scene/code.cpp
+must_find includes "host includes its own" '#include "cl/device.h"' host/code.cpp
 must_find includes "host itself" '#include "host/cl/device.h"' host/error.h
 must_find includes "has its floor" '// a room' host/attic/code.cpp
 must_find includes "host may not" '#include "../cl/device.h"' host/scene/code.cpp
@@ -76,10 +78,12 @@ must_find numerics "epsilon or clamp" 'x = clamp(y, 0.f, 1.f);' kernels/shade.cl
 must_find files "opens with a comment" 'int x;' host/new.cpp
 must_find files "opens with a comment" 'int x;' kernels/new.cl
 must_find files "opens with a comment" 'set -e' tests/new.sh
-must_find files "at most 450" "$(printf '//\\n%.0s' {1..450})" host/new.cpp
+must_find files "at most 320" "$(printf '//\\n%.0s' {1..320})" host/new.cpp
 must_find files "at most 60" "int f(int x) {\n$(printf '    x++;\\n%.0s' {1..59})}" host/scene/code.cpp
 must_find files "at most 60" "struct S {\n    int f(int x)\n        const {\n$(printf '        x++;\\n%.0s' {1..58})    }\n};" host/scene/code.cpp
 must_find files "at most 60" "kernel void f(int x) {\n    if (x) {\n$(printf '        x++;\\n%.0s' {1..57})    }\n}" kernels/shade.cl
+must_find files "at most 60" "[[nodiscard]] int f(int x) {\n$(printf '    x++;\\n%.0s' {1..59})}" host/scene/code.cpp
+must_find files "at most 60" "struct S {\n    struct T {\n        int f(int x) {\n$(printf '            x++;\\n%.0s' {1..59})        }\n    };\n};" host/scene/code.cpp
 must_find files "standard streams" 'fmt::print(stderr, "x");' host/scene/code.cpp
 must_find files "standard streams" 'fmt::print("x");' host/bvh/code.cpp
 must_find files "standard streams" 'std::cout << 1;' host/cl/code.cpp
