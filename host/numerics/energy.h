@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/flatten/energy_table.h"
+#include "host/flatten/material_records.h"
 #include "host/numerics/materials.h"
 
 namespace parhelion::numerics {
@@ -42,8 +43,6 @@ private:
     std::vector<float> tables_;
 };
 
-inline bool is_rough(int kind) {
-    return kind == material_roughconductor || kind == material_roughdielectric;
-}
+inline bool is_rough(int kind) { return (rough_materials >> kind) & 1; }
 
 } // namespace parhelion::numerics

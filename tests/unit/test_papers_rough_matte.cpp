@@ -43,7 +43,6 @@ typename P::Material matte(double alpha) {
 }
 
 /// The largest difference from the paper's value, of all colours.
-/// The largest difference from the paper's value, of all colours.
 template<class P>
 double difference(double alpha, const Angles& w) {
     auto found =
