@@ -1,8 +1,7 @@
-// What the host tells the device: rows of lights and records of materials by their closed forms,
-// and what the light tree makes of lights, by the formulas of its paper.
+// What the host tells the device: rows of lights by their closed forms, and what the light tree
+// makes of lights, by the formulas of its paper.
 #include "host/flatten/light_bounds.h"
 #include "host/flatten/light_rows.h"
-#include "host/flatten/material_records.h"
 #include "host/numerics/every_kind_scene.h"
 #include "host/numerics/measure.h"
 
@@ -219,62 +218,4 @@ TEST_CASE("Record truths: importance of lights, Conty Estevez and Kulla 2018", "
     node.fixed = 1;
     CHECK(light_importance(node, p, n).to_point == 5);
     CHECK(light_importance(node, p, n).to_surface == 5);
-}
-
-TEST_CASE("Record truths: materials", "[truths]") {
-    auto check_color = [](float r, float g, float b, const Rgb& c) { check_point(r, g, b, c); };
-    const Rgb reflected(0.9, 0.7, 0.5), passed(0.8, 0.6, 0.4), eta(0.2, 0.9, 1.5), k(3.9, 2.4, 1.8);
-    MaterialRecord diffuse = material_record(DiffuseBsdf{reflected});
-    CHECK(diffuse.kind == material_diffuse);
-    check_color(diffuse.r, diffuse.g, diffuse.b, reflected);
-    for (bool rough : {false, true}) {
-        MaterialRecord m = rough
-                               ? material_record(RoughConductorBsdf{
-                                     {MicrofacetDistribution::ggx, 0.2, 0.3}, {eta, k}, reflected})
-                               : material_record(ConductorBsdf{{eta, k}, reflected});
-        CHECK(m.kind == (rough ? material_roughconductor : material_conductor));
-        check_color(m.r, m.g, m.b, reflected);
-        check_color(m.er, m.eg, m.eb, eta);
-        check_color(m.kr, m.kg, m.kb, k);
-        if (!rough) continue;
-        CHECK(m.alpha_u == 0.2f);
-        CHECK(m.alpha_v == 0.3f);
-        CHECK((m.distribution & 1) == 0);
-        // Average over the cosine, 2 c F(c) dc, by the rectangle rule.
-        const float averages[] = {m.tr, m.tg, m.tb};
-        for (int c = 0; c < 3; c++) {
-            double sum = 0;
-            constexpr int steps = 20000;
-            for (int i = 0; i < steps; i++) {
-                double cosine = (i + 0.5) / steps;
-                sum += 2 * cosine * f64::fresnel_conductor(cosine, eta[c], k[c]) / steps;
-            }
-            CHECK(averages[c] == near(sum * reflected[c]));
-        }
-    }
-    const double n = 1.4;
-    const Bsdf glasses[] = {
-        DielectricBsdf{n, reflected, passed}, ThinDielectricBsdf{n, reflected, passed},
-        RoughDielectricBsdf{{MicrofacetDistribution::beckmann, 0.1, 0.4}, n, reflected, passed}};
-    const int kinds[] = {material_dielectric, material_thindielectric, material_roughdielectric};
-    for (int i = 0; i < 3; i++) {
-        MaterialRecord m = material_record(glasses[i]);
-        CHECK(m.kind == kinds[i]);
-        check_color(m.r, m.g, m.b, reflected);
-        check_color(m.tr, m.tg, m.tb, passed);
-        CHECK(m.er == near(n));
-        CHECK(m.eg == near(1 / n));
-        // n^2 - 1 from outside and from inside, in two floats each.
-        CHECK(double(m.eb) + m.kr == Approx(n * n - 1).epsilon(1e-13));
-        CHECK(double(m.kg) + m.kb == Approx(1 / (n * n) - 1).epsilon(1e-13));
-    }
-    MaterialRecord frosted = material_record(glasses[2]);
-    CHECK(frosted.alpha_u == 0.1f);
-    CHECK(frosted.alpha_v == 0.4f);
-    CHECK((frosted.distribution & 1) == 1);
-    MaterialRecord nothing = material_record(NullBsdf{});
-    CHECK(nothing.kind == material_null);
-    check_color(nothing.r, nothing.g, nothing.b, Rgb(1));
-    CHECK(nothing.alpha_u == 1);
-    CHECK(nothing.alpha_v == 1);
 }

@@ -5,6 +5,7 @@
 #include "host/numerics/every_kind_scene.h"
 #include "host/numerics/light_tables.h"
 #include "host/twin/sample_trace.h"
+#include "tests/support/parameter_values.h"
 #include "tests/support/two_of_every.h"
 
 #include <catch2/catch.hpp>
@@ -25,15 +26,6 @@ glm::dvec3 vector(const f64::vec3& v) { return {v.x, v.y, v.z}; }
 
 bool near(const glm::dvec3& a, const glm::dvec3& b, double relative, double absolute = 0) {
     return glm::length(a - b) <= relative * glm::length(b) + absolute;
-}
-
-template<class Material>
-Material material_of(const MaterialRecord& record) {
-    Material m{};
-#define COPY_FIELD(type, name) m.name = record.name;
-    MATERIAL_FIELDS(COPY_FIELD)
-#undef COPY_FIELD
-    return m;
 }
 
 /// Veach 1997, section 9.2.4; an infinite density is the only strategy there is.
