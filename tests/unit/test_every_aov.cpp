@@ -97,8 +97,9 @@ Truth meet(const Scene& scene, const Ray& r) {
         if (h.t >= nearest.t) continue;
         nearest = h;
         nearest.shape = static_cast<int>(i) + 1;
-        const Material& m =
-            scene.materials[static_cast<std::size_t>(scene.shapes[i].material_front)];
+        const Shape& shape = scene.shapes[i];
+        bool back = glm::dot(h.ng, r.d) > 0 && shape.material_back != no_material;
+        const Material& m = scene.materials[back ? shape.material_back : shape.material_front];
         nearest.albedo = std::get<DiffuseBsdf>(m.bsdf).reflectance;
     }
     return nearest;
@@ -122,15 +123,16 @@ struct Aov {
 #define AOV_TRUTH(name, channels, suffixes) Aov{#name, suffixes, truth_##name},
 const std::array aovs{AOVS(AOV_TRUTH)};
 
-/// Two of every shape in a row, askew, each of its own colour.
+/// Two of every shape in a row, askew, each of its own colour. The flipped ones are seen from
+/// behind: the ball absorbs there and has the colour of its front, the disk has another's.
 Scene shapes_in_a_row() {
     Scene scene;
     scene.file = "made by the test";
-    auto add = [&](Geometry geometry) {
+    auto add = [&](Geometry geometry, std::optional<int> back = {}) {
         double n = static_cast<double>(scene.materials.size());
         scene.materials.push_back({"", {}, DiffuseBsdf{Rgb(0.1 + 0.1 * n, 0.9 - 0.1 * n, 0.5)}});
         int material = static_cast<int>(n);
-        scene.shapes.push_back(shape_of(std::move(geometry), material, material));
+        scene.shapes.push_back(shape_of(std::move(geometry), material, back.value_or(material)));
     };
     Mesh flat = quad({-2.9, -0.4, 0.2}, {0.8, 0, -0.2}, {0.1, 0.8, 0.1});
     Mesh smooth = quad({-1.9, -0.4, -0.1}, {0.8, 0.1, 0.2}, {0, 0.8, -0.1});
@@ -141,9 +143,9 @@ Scene shapes_in_a_row() {
     glm::dvec3 z = glm::normalize(glm::dvec3(0.3, 0.8, 0.4)),
                x = glm::normalize(glm::cross(z, glm::dvec3(0, 0, 1)));
     add(Sphere{{-0.5, 0, 0}, 0.42});
-    add(Sphere{{0.5, 0.05, 0}, 0.4, x, glm::cross(z, x), z, true});
+    add(Sphere{{0.5, 0.05, 0}, 0.4, x, glm::cross(z, x), z, true}, no_material);
     add(Disk{{1.5, 0, 0}, {0.4, 0, 0.1}, {0, 0.4, 0}});
-    add(Disk{{2.5, 0, 0}, {0.3, 0.2, 0}, {-0.1, 0.3, 0.2}, true});
+    add(Disk{{2.5, 0, 0}, {0.3, 0.2, 0}, {-0.1, 0.3, 0.2}, true}, 1);
     scene.camera.to_world = glm::dmat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, 1, 0, 0),
                                        glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 0, 10, 1));
     scene.camera.fov_degrees = 360 / std::numbers::pi * std::atan(0.3);
