@@ -159,3 +159,29 @@ TEST_CASE("Domains: numbers of samplers", "[domains]") { walk("sampler"); }
 TEST_CASE("Domains: numbers of integrators", "[domains]") { walk("integrator"); }
 TEST_CASE("Domains: numbers of spectra", "[domains]") { walk("spectrum"); }
 TEST_CASE("Domains: numbers of transforms", "[domains]") { walk("transform"); }
+
+TEST_CASE("Domains: indices of a rough interface differ by what the page says", "[domains]") {
+    int walked = 0;
+    for (const NumberParameter& p : mitsuba::number_parameters()) {
+        if (!mentions(p.also, "times ext_ior")) continue;
+        CHECK(p.also == "1.003 times ext_ior or more, or less than it by as much");
+        for (std::string_view plugin : split(p.plugins, " "))
+            for (double outside : {1.0, 1.5, 0.02})
+                for (double ratio : {1.003, 1 / 1.003})
+                    for (double share : {0.0, 0.99999999, 1.00000001, 2.0}) {
+                        double inside = outside * std::pow(ratio, share);
+                        CAPTURE(plugin, outside, ratio, share);
+                        Outcome outcome =
+                            outcome_of(domain_scene(p, plugin, fmt::format("{}", inside),
+                                                    fmt::format("<float name='ext_ior' "
+                                                                "value='{}'/>",
+                                                                outside)));
+                        CHECK(outcome.refusal.empty() == (share > 1));
+                        if (share < 1)
+                            CHECK(mentions(outcome.refusal,
+                                           "two indices, one 1.003 times the other or more"));
+                        walked++;
+                    }
+    }
+    CHECK(walked == 24);
+}
