@@ -9,6 +9,9 @@
 
 #include <cstring>
 #include <map>
+#include <span>
+#include <string>
+#include <vector>
 
 using namespace parhelion;
 using namespace parhelion::test;

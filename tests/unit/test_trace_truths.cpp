@@ -6,11 +6,15 @@
 #include "host/numerics/light_tables.h"
 #include "host/twin/sample_trace.h"
 #include "tests/support/parameter_values.h"
+#include "tests/support/trace_numbers.h"
 #include "tests/support/two_of_every.h"
 
 #include <catch2/catch.hpp>
 
+#include <array>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <string_view>
 
 using namespace parhelion;
@@ -23,16 +27,6 @@ glm::dvec3 vector(const Triple& t) { return {t[0], t[1], t[2]}; }
 f64::vec3 wide(const glm::dvec3& v) { return f64::v3(v.x, v.y, v.z); }
 f32::vec3 narrow(const Triple& t) { return {t[0], t[1], t[2]}; }
 glm::dvec3 vector(const f64::vec3& v) { return {v.x, v.y, v.z}; }
-
-bool near(const glm::dvec3& a, const glm::dvec3& b, double relative, double absolute = 0) {
-    return glm::length(a - b) <= relative * glm::length(b) + absolute;
-}
-
-/// Veach 1997, section 9.2.4; an infinite density is the only strategy there is.
-double power_heuristic(double own, double other) {
-    if (std::isinf(own)) return 1;
-    return own * own / (own * own + other * other);
-}
 
 /// Every material, emitter and shape, of independent random numbers.
 Scene traced_scene(bool one_light) {
