@@ -116,6 +116,7 @@ void add_surface(const Scene& scene, const DeviceScene& flat, const TraceVertex&
     out["wo"] = triple(v.wo);
     out["material"] = material_json(scene, flat, v.material);
     if (v.material < 0) return;
+    out["energy_gain"] = triple(v.notes.energy_gain.value_or(Triple{1, 1, 1}));
     out["next_event"] = light_json(scene, flat, v);
     out["scattering"] = scattering_json(v);
     out["roulette"] = roulette_json(v);

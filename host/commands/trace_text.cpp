@@ -86,6 +86,9 @@ std::string surface_text(const json& v) {
         line("ng, ns", fmt::format("{}, {}", triple(v["ng"]), triple(v["ns"]))) +
         line("local wo", triple(v["wo"])) + material_text(v["material"]);
     if (v["material"].is_null()) return text;
+    if (v["energy_gain"] != json{1.f, 1.f, 1.f})
+        text += line("energy", "throughput times " + triple(v["energy_gain"]) +
+                                   " for what is scattered more than once");
     if (!v["next_event"].is_null()) text += next_event_text(v["next_event"]);
     if (!v["scattering"].is_null()) text += scattering_text(v["scattering"]);
     if (!v["roulette"].is_null()) text += roulette_text(v["roulette"]);

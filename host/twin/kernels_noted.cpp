@@ -25,6 +25,8 @@ struct Kernels : WorkItem {
     }
     void note_emission(const EmitterHit& e) { notes.emission = {triple(e.radiance), e.pdf}; }
     void note_sky(vec3 radiance) { notes.emission = {triple(radiance), 0.f}; }
+    void note_sky_pdf(Real pdf) { notes.emission->pdf = pdf; }
+    void note_energy_gain(vec3 gain) { notes.energy_gain = triple(gain); }
     void note_emission_weight(Real weight) { notes.emission_weight = weight; }
     void note_pick(const LightPick& p) { notes.pick = {p.row, p.pmf}; }
     void note_light(const EmitterSample& e) {

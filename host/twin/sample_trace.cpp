@@ -93,7 +93,8 @@ Triple unsent_light(const TraceVertex& v) {
     const ShadeNotes& n = v.notes;
     if (!n.light || !n.towards_light) return {};
     float weight = n.light_weight.value_or(1.f) * n.light_share.value_or(1.f);
-    return times(times(times(v.throughput, n.towards_light->f), n.light->weight), weight);
+    Triple throughput = times(v.throughput, n.energy_gain.value_or(Triple{1, 1, 1}));
+    return times(times(times(throughput, n.towards_light->f), n.light->weight), weight);
 }
 
 /// Names what is not finite, but for densities: those of delta lobes are infinite.

@@ -51,6 +51,7 @@ struct ShadeNotes {
     std::optional<Surface> surface;
     std::optional<Emission> emission;
     std::optional<float> emission_weight;
+    std::optional<Triple> energy_gain; ///< scales all that the surface sends on
     std::optional<Pick> pick;
     std::optional<LightSample> light;
     std::optional<Evaluated> towards_light;

@@ -62,9 +62,11 @@ FN Shading turned_to_viewer(ShadeWork w, PathVertex v, Shading s) {
         s.wo.z = s.wo.z * s.side;
     }
     s.throughput = v.path.throughput;
-    if (HAS(energy_compensation))
-        s.throughput =
-            mul3(s.throughput, compensate_energy(w.scene.energy_tables, s.material, s.wo, s.lanes));
+    if (HAS(energy_compensation)) {
+        vec3 gain = compensate_energy(w.scene.energy_tables, s.material, s.wo, s.lanes);
+        NOTE(energy_gain, gain);
+        s.throughput = mul3(s.throughput, gain);
+    }
     s.clearance = surface_clearance(v.surface.error, v.surface.ng);
     Mask round = primitive_kind(v.primitive.whole) == geometry_sphere;
     s.excluded = sel(round, (Int)(-1), v.path.primitive);

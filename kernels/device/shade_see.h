@@ -18,6 +18,7 @@ FN vec3 sky_emission(ShadeWork w, Path path, Mask hidden) {
     Real weight = R(1.);
     if (HAS(next_event)) {
         Real sampled = emitter_constant_pdf(sky, path.origin, path.direction, path.origin);
+        NOTE(sky_pdf, sampled);
         weight = power_heuristic(path.pdf, sampled);
         NOTE(emission_weight, weight);
     }

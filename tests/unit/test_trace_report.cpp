@@ -27,10 +27,9 @@ glm::dvec3 vector(const json& j) { return {number(j[0]), number(j[1]), number(j[
 /// So bright that it is counted in another unit.
 const Rgb radiance(9e14, 8e14, 7e14);
 
-/// One light and no energy compensation: all that counts is printed. Units are not 1.
+/// One light. Units are not 1.
 Scene printed_scene() {
     Scene scene = every_kind_scene();
-    set_energy_compensation(scene, false);
     scene.integrator.aovs.clear();
     scene.film.width = scene.film.crop_width = 20;
     scene.film.height = scene.film.crop_height = 15;
@@ -69,7 +68,7 @@ void check_light(const json& v, Told& told) {
     CHECK(near(vector(l["radiance_over_pdf"]), radiance / pdf, 1e-5));
     glm::dvec3 towards = vector(l["target"]) - vector(v["position"]);
     if (v["emission"].is_null()) CHECK(near(vector(l["direction"]), glm::normalize(towards), 1e-3));
-    glm::dvec3 brought = vector(v["throughput"]) * vector(l["bsdf"]) *
+    glm::dvec3 brought = vector(v["throughput"]) * vector(v["energy_gain"]) * vector(l["bsdf"]) *
                          vector(l["radiance_over_pdf"]) * number(l["mis_weight"]) *
                          number(l["geometry_share"]);
     CHECK(near(vector(l["contribution"]), brought, 1e-5));
@@ -81,8 +80,8 @@ void check_light(const json& v, Told& told) {
 void check_onward(const json& v, const json& next) {
     const json& s = v["scattering"];
     double survived = v["roulette"].is_null() ? 1 : number(v["roulette"]["throughput_scale"]);
-    glm::dvec3 after =
-        vector(v["throughput"]) * vector(s["weight"]) * number(s["geometry_share"]) * survived;
+    glm::dvec3 after = vector(v["throughput"]) * vector(v["energy_gain"]) * vector(s["weight"]) *
+                       number(s["geometry_share"]) * survived;
     CHECK(near(vector(v["throughput_after"]), after, 1e-5));
     CHECK(next["throughput"] == v["throughput_after"]);
     CHECK(next["direction_pdf"] == s["pdf"]);

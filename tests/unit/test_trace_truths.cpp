@@ -31,7 +31,6 @@ glm::dvec3 vector(const f64::vec3& v) { return {v.x, v.y, v.z}; }
 /// Every material, emitter and shape, of independent random numbers.
 Scene traced_scene(bool one_light) {
     Scene scene = every_kind_scene();
-    set_energy_compensation(scene, false); // its share of the throughput is not told
     scene.film.filter.kind = FilterKind::box;
     scene.film.width = scene.film.crop_width = 20;
     scene.film.height = scene.film.crop_height = 15;
@@ -100,6 +99,20 @@ private:
         if (flat_.lights.size() == 1) return 1;
         return light_probabilities(flat_, narrow(p), narrow(n), hint)[row];
     }
+    /// What a rough material makes up for, from the tables in double; 1 of all others.
+    glm::dvec3 gain(const TraceVertex& v) const {
+        auto m = material_of<f64::Material>(record(v));
+        if (f64::energy_table(m) < 0) return glm::dvec3(1);
+        f64::EnergyPlace place = f64::energy_place(m, viewer(v));
+        auto between = [&](int at) {
+            double low = flat_.energy_tables[at], high = flat_.energy_tables[at + 1];
+            return low + place.along_cosine * (high - low);
+        };
+        double here = between(place.at);
+        if (flat_.features.has(feature_anisotropy))
+            here += place.along_azimuth * (between(place.at + ENERGY_COSINES) - here);
+        return vector(f64::energy_gain(m, here));
+    }
     /// Light that the geometry lets count: none where the two normals see it on different sides.
     double counted(const TraceVertex& v, const glm::dvec3& w) const {
         if (record(v).kind == material_null) return 1;
@@ -122,7 +135,10 @@ void Checked::check_emission(const TraceVertex& v, Counts& counts) {
     double weight = 1;
     if (n.emission_weight) {
         double of_light = n.emission->pdf;
-        if (!v.hit) of_light = flat_.lights[flat_.constant_light].pmf / (4 * std::numbers::pi);
+        if (!v.hit) {
+            of_light = flat_.lights[flat_.constant_light].pmf / (4 * std::numbers::pi);
+            CHECK(n.emission->pdf == Approx(of_light).epsilon(1e-6));
+        }
         weight = power_heuristic(pdf_, of_light);
         CHECK(*n.emission_weight == Approx(weight));
         counts["emission weight"] += weight < 0.99;
@@ -153,6 +169,8 @@ void Checked::check_draws(const TraceVertex& v, Counts& counts) {
 
 void Checked::check_light(const TraceVertex& v, Counts& counts) {
     const ShadeNotes& n = v.notes;
+    CHECK(near(vector(*n.energy_gain), gain(v), 1e-4));
+    counts["energy gain"] += gain(v).x > 1.001;
     const auto& [p, ng, ns, frame] = *n.surface;
     bool arrives = n.pick->pmf > 0 && n.light->weight != Triple{};
     if (!arrives) CHECK(!v.shadow_ray);
@@ -173,8 +191,8 @@ void Checked::check_light(const TraceVertex& v, Counts& counts) {
     CHECK(*n.light_weight == Approx(weight).epsilon(1e-3));
     double share = counted(v, wi);
     if (n.light_share) CHECK(*n.light_share == share);
-    glm::dvec3 brought = throughput_ * vector(n.towards_light->f) * vector(n.light->weight) *
-                         double{*n.light_weight} * share;
+    glm::dvec3 brought = throughput_ * gain(v) * vector(n.towards_light->f) *
+                         vector(n.light->weight) * double{*n.light_weight} * share;
     CHECK(near(vector(v.light), brought, 1e-5));
     CHECK(v.shadow_ray == (std::max({brought.x, brought.y, brought.z}) > 0));
     counts["light weight"] += v.shadow_ray && weight < 0.99;
@@ -210,7 +228,7 @@ void Checked::check_going_on(const TraceVertex& v, Counts& counts) {
     glm::dvec3 onward = world(v, vector(n.scattered->wi));
     double share = counted(v, onward);
     if (n.scattered_share) CHECK(*n.scattered_share == share);
-    glm::dvec3 after = throughput_ * vector(n.scattered->weight) * share;
+    glm::dvec3 after = throughput_ * gain(v) * vector(n.scattered->weight) * share;
     double most = std::max({after.x, after.y, after.z});
     check_roulette(v, most, counts);
     if (n.roulette) after *= double{n.roulette->scale};
@@ -260,12 +278,12 @@ void check_enough(Checked::Counts counts, std::initializer_list<std::string_view
 
 TEST_CASE("Trace truths: one light, by what each vertex tells alone", "[trace]") {
     check_enough(check_traces(traced_scene(true)),
-                 {"emission weight", "emission", "emitter", "bsdf", "light weight", "refraction",
-                  "scattered", "roulette"});
+                 {"emission weight", "emission", "emitter", "bsdf", "light weight", "energy gain",
+                  "refraction", "scattered", "roulette"});
 }
 
 TEST_CASE("Trace truths: lights of every kind", "[trace]") {
     check_enough(check_traces(traced_scene(false)),
-                 {"emission weight", "emission", "emitter", "bsdf", "light weight",
+                 {"emission weight", "emission", "emitter", "bsdf", "light weight", "energy gain",
                   "light of one place", "refraction", "scattered", "roulette"});
 }
