@@ -3,6 +3,8 @@
 #include "host/commands/render.h"
 #include "test_scene_tools.h"
 
+#include <fmt/format.h>
+
 #include <functional>
 #include <set>
 
