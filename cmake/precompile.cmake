@@ -13,3 +13,10 @@ function(parhelion_precompile TARGET)
       <variant> <vector> <fmt/format.h> <glm/mat4x4.hpp> <glm/vec3.hpp> ${PARHELION_INTRINSICS} ${ARGN})
   endif()
 endfunction()
+
+# For a target of parhelion_core's compile options: it reads what that has precompiled.
+function(parhelion_precompiled TARGET)
+  if(PARHELION_PRECOMPILE)
+    target_precompile_headers(${TARGET} REUSE_FROM parhelion_core)
+  endif()
+endfunction()
