@@ -76,7 +76,7 @@ void expect_together(Words& w, const RoughConductorBsdf& b) {
     }
 MATERIALS(EXPECT_BSDF)
 
-void check_record(const MaterialRecord& found, const Words& expected){
+void check_record(const MaterialRecord& found, const Words& expected) {
 #define CHECK_WORD(type, name)                                                                     \
     {                                                                                              \
         INFO(#name);                                                                               \
@@ -84,14 +84,20 @@ void check_record(const MaterialRecord& found, const Words& expected){
     }
     MATERIAL_FIELDS(CHECK_WORD)
 #undef CHECK_WORD
+    CHECK(found.alpha_u == static_cast<float>(expected.alpha_u));
+    CHECK(found.alpha_v == static_cast<float>(expected.alpha_v));
+}
+
+/// High and low parts of eta^2 - 1 make one number, to double's precision.
+void check_interface(const MaterialRecord& found, double eta) {
+    CHECK(double(found.eb) + found.kr == Approx(eta * eta - 1).epsilon(1e-13));
+    CHECK(double(found.kg) + found.kb == Approx(1 / (eta * eta) - 1).epsilon(1e-13));
 }
 
 // What Mitsuba 3's documentation gives a parameter that is missing; of `roughdiffuse`, Mitsuba
 // 0.6's. No metal is named: it reflects everything.
 
-Rgb missing_reflectance(const auto&) {
-    return Rgb(0.5);
-}
+Rgb missing_reflectance(const auto&) { return Rgb(0.5); }
 Rgb missing_specular_reflectance(const auto&) { return Rgb(1.0); }
 Rgb missing_specular_transmittance(const auto&) { return Rgb(1.0); }
 parameter::ComplexIndex::Value missing_index(const auto&) { return {Rgb(0.0), Rgb(1.0)}; }
@@ -126,6 +132,11 @@ void check_loaded(const Bsdf& expected, bool written) {
     REQUIRE(found.index() == expected.index());
     std::visit([&](const auto& b) { check_record(material_record(found), expected_words(b)); },
                expected);
+    std::visit(
+        [&](const auto& b) {
+            if constexpr (requires { b.eta; }) check_interface(material_record(found), b.eta);
+        },
+        expected);
     CHECK(wants_energy_compensation(found) == wants_energy_compensation(expected));
 }
 
