@@ -27,19 +27,20 @@ const SourceLocation first{"scene.xml", 3}, second{"scene.xml", 7};
 TEST_CASE("AOVs: no kind and no name twice", "[aov]") {
     CHECK(refusal({{"a", "depth", first}, {"b", "uv", second}}).empty());
     CHECK(refusal({{"a", "variance", first}, {"b", "samples", second}}).empty());
-    CHECK(refusal({{"a", "depth", first}, {"a", "uv", second}}) ==
-          "scene.xml:7: AOV 'a' (uv) is asked for twice");
-    CHECK(refusal({{"a", "depth", first}, {"b", "depth", second}}) ==
-          "scene.xml:7: AOV 'b' (depth) is asked for twice");
-    CHECK(refusal({{"a", "variance", first}, {"b", "variance", second}}) ==
-          "scene.xml:7: AOV 'b' (variance) is asked for twice");
-    CHECK(refusal({{"a", "variance", first}, {"a", "samples", second}}) ==
-          "scene.xml:7: AOV 'a' (samples) is asked for twice");
-    // What the film tells and what paths tell stand side by side in the image.
-    CHECK(refusal({{"a", "depth", first}, {"a", "samples", second}}) ==
-          "scene.xml:7: AOV 'a' (samples) is asked for twice");
-    CHECK(refusal({{"a", "variance", first}, {"a", "depth", second}}) ==
-          "scene.xml:7: AOV 'a' (depth) is asked for twice");
+    struct Twice {
+        AovRequest first, second;
+    };
+    const Twice cases[] = {{{"a", "depth", first}, {"a", "uv", second}},
+                           {{"a", "depth", first}, {"b", "depth", second}},
+                           {{"a", "variance", first}, {"b", "variance", second}},
+                           {{"a", "variance", first}, {"a", "samples", second}},
+                           // What the film tells and what paths tell stand side by side.
+                           {{"a", "depth", first}, {"a", "samples", second}},
+                           {{"a", "variance", first}, {"a", "depth", second}}};
+    for (const Twice& twice : cases)
+        CHECK(refusal({twice.first, twice.second}) == "scene.xml:7: AOV '" + twice.second.name +
+                                                          "' (" + twice.second.kind +
+                                                          ") is asked for twice");
     // Kinds of either are counted from 0 each: the same number is no other's kind.
     for (const AovKindInfo& of_path : aov_kinds)
         for (const AovKindInfo& of_film : film_aov_kinds)
