@@ -32,12 +32,23 @@ std::string counted(std::size_t count, const char* one) {
     return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
-/// "2 of 5 materials": decides a feature that any of them needs.
+struct Count {
+    bool any;
+    std::string text; ///< "2 of 5 materials"
+};
+
+template<class Records, class Needs>
+Count count_of(const Records& records, const char* name, Needs needs) {
+    auto count = std::count_if(records.begin(), records.end(), needs);
+    return {count > 0, fmt::format("{} of {} {}", count, records.size(), name)};
+}
+
+/// A feature that any of them needs.
 template<class Records, class Needs>
 void decide_by_count(FeatureDecisions& out, Feature f, const Records& records, const char* name,
                      Needs needs) {
-    auto count = std::count_if(records.begin(), records.end(), needs);
-    out.decide(f, count > 0, fmt::format("{} of {} {}", count, records.size(), name));
+    Count count = count_of(records, name, needs);
+    out.decide(f, count.any, count.text);
 }
 
 void decide_by_request(FeatureDecisions& out, Feature f, bool asked) {
@@ -113,6 +124,7 @@ void decide_lights(const DeviceScene& records, FeatureDecisions& out) {
 struct Transport {
     bool asked, lit, emission, several, next_event, through, sees, scatters, roulette;
     std::string found;
+    Count passing; ///< materials that let rays go straight on
 };
 
 std::string edges(int longest) {
@@ -122,6 +134,7 @@ std::string edges(int longest) {
 
 Transport transport(const Integrator& integrator, const DeviceScene& records) {
     Transport t{};
+    t.passing = count_of(records.materials, "materials let rays go straight on", lets_through);
     t.asked = integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct;
     if (!t.asked) {
         t.found = "no light transport is asked for";
@@ -136,8 +149,7 @@ Transport transport(const Integrator& integrator, const DeviceScene& records) {
     t.several = longest >= 2;
     t.next_event = t.lit && t.several && integrator.emitter_samples;
     // As in Mitsuba 3: what lets rays straight through is a surface like others to `direct`.
-    t.through = integrator.kind == IntegratorKind::path &&
-                std::any_of(records.materials.begin(), records.materials.end(), lets_through);
+    t.through = integrator.kind == IntegratorKind::path && t.passing.any;
     // After the last scattering only emission can be met: with point lights alone nothing is. But
     // what lies behind a surface that lets rays through covers the pixel, lit or not.
     t.sees = seen || (t.lit && longest >= 3) || t.through;
@@ -152,7 +164,7 @@ Transport transport(const Integrator& integrator, const DeviceScene& records) {
 void decide_shading_normals(const Integrator& integrator, const DeviceScene& records,
                             const Transport& t, FeatureDecisions& out) {
     bool smooth = out.has(feature_vertex_normals), shaded = t.next_event || t.scatters;
-    auto matte = std::count_if(records.materials.begin(), records.materials.end(), is_matte);
+    Count matte = count_of(records.materials, "materials matte", is_matte);
     std::string found =
         fmt::format("{} smooth shapes{}, shading normals are {}", smooth ? "some" : "no",
                     shaded ? "" : fmt::format(", no surface is lit ({})", t.found),
@@ -161,8 +173,8 @@ void decide_shading_normals(const Integrator& integrator, const DeviceScene& rec
     out.decide(feature_consistent_normals,
                wanted && integrator.shading_normals != ShadingNormals::raw, found);
     out.decide(feature_soft_terminator,
-               wanted && matte > 0 && integrator.shading_normals == ShadingNormals::soft,
-               fmt::format("{}, {} of {} materials matte", found, matte, records.materials.size()));
+               wanted && matte.any && integrator.shading_normals == ShadingNormals::soft,
+               fmt::format("{}, {}", found, matte.text));
 }
 
 void decide_transport(const Scene& scene, const DeviceScene& records, FeatureDecisions& out) {
@@ -175,13 +187,10 @@ void decide_transport(const Scene& scene, const DeviceScene& records, FeatureDec
     out.decide(feature_light_tree, t.next_event && !records.light_tree.nodes.empty(),
                fmt::format("{} of the tree, {}, lights are {}",
                            counted(records.light_tree.nodes.size(), "node"), t.found, sampled));
-    auto passing = std::count_if(records.materials.begin(), records.materials.end(), lets_through);
-    out.decide(feature_straight_through, t.through,
-               fmt::format("{} of {} materials let rays go straight on{}", passing,
-                           records.materials.size(),
-                           integrator.kind == IntegratorKind::path
-                               ? ""
-                               : ", which this integrator takes for surfaces like others"));
+    bool looks_through = integrator.kind == IntegratorKind::path;
+    const char* else_what =
+        looks_through ? "" : ", which this integrator takes for surfaces like others";
+    out.decide(feature_straight_through, t.through, t.passing.text + else_what);
     out.decide(feature_scattering, t.scatters, t.found);
     out.decide(feature_russian_roulette, t.roulette,
                fmt::format("{}, roulette from edge {} on", t.found, integrator.rr_depth));
@@ -250,13 +259,12 @@ FeatureDecisions scene_features(const Scene& scene, const DeviceScene& records) 
 
 void decide_energy_compensation(const Scene& scene, DeviceScene& records) {
     std::size_t values = records.energy_tables.size();
-    auto asking =
-        std::count_if(scene.materials.begin(), scene.materials.end(),
-                      [](const Material& m) { return wants_energy_compensation(m.bsdf); });
-    std::string found = fmt::format("{} of {} materials make up for what they scatter more than "
-                                    "once, {} of energy tables",
-                                    asking, scene.materials.size(), counted(values, "value"));
-    records.features.decide(feature_energy_compensation, values > 0, found);
+    Count asking =
+        count_of(scene.materials, "materials make up for what they scatter more than once",
+                 [](const Material& m) { return wants_energy_compensation(m.bsdf); });
+    records.features.decide(
+        feature_energy_compensation, values > 0,
+        fmt::format("{}, {} of energy tables", asking.text, counted(values, "value")));
 }
 
 bool traced_in_streams(std::size_t primitives) { return primitives > primitives_for_packets; }
