@@ -52,13 +52,12 @@ constexpr double decided_otherwise = 1e-4;
 
 Difference difference(const Image& a, const Image& b) {
     std::vector<const std::vector<float>*> found, exact;
-    double mean = 0;
     for (const char* channel : {"R", "G", "B"}) {
         found.push_back(&find_channel(a, channel)->values);
         exact.push_back(&find_channel(b, channel)->values);
-        for (float value : *exact.back())
-            mean += double{value} / (3. * static_cast<double>(b.pixel_count()));
     }
+    MeanRgb means = mean_rgb(b);
+    double mean = (means[0] + means[1] + means[2]) / 3;
     double all = 0, alike = 0;
     Difference d{};
     for (std::size_t i = 0; i < b.pixel_count(); i++) {
