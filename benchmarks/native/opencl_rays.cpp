@@ -9,8 +9,8 @@
 namespace parhelion::bench {
 namespace {
 
-numerics::RayLayout layout_of(const WorkSizes& s) {
-    return {static_cast<std::size_t>(s.segments), static_cast<std::size_t>(s.segment_size),
+numerics::RayLayout layout_of(std::size_t rays, const WorkSizes& s) {
+    return {rays, static_cast<std::size_t>(s.segments), static_cast<std::size_t>(s.segment_size),
             static_cast<std::size_t>(s.segment_stride), s.state_stride()};
 }
 
@@ -58,8 +58,8 @@ void OpenClTracer::prepare(std::span<const Ray> rays, int depth, bool any_hit) {
     count_ = rays.size();
     work_.statistics.fill_zero(device_.queue);
     work_.results.fill_zero(device_.queue);
-    auto layout = layout_of(sizes_);
-    write(work_.counts, numerics::segment_counts(count_, layout));
+    auto layout = layout_of(count_, sizes_);
+    write(work_.counts, numerics::segment_counts(layout));
     if (any_hit)
         write(work_.shadow_state, numerics::shadow_state(rays, layout));
     else
@@ -95,7 +95,7 @@ double OpenClTracer::trace() {
 }
 
 std::vector<Hit> OpenClTracer::hits() {
-    if (!any_hit_) return numerics::read_hits(read(work_.path_state), count_, layout_of(sizes_));
+    if (!any_hit_) return numerics::read_hits(read(work_.path_state), layout_of(count_, sizes_));
     std::vector<Hit> found;
     for (bool blocked : numerics::read_blocked(read(work_.results), count_, sizes_.result_stride()))
         found.push_back({0, 0, 0, blocked ? 0 : -1});

@@ -31,11 +31,11 @@ std::vector<float> state_of(std::span<const TracedRay> rays, const RayLayout& la
 
 } // namespace
 
-std::vector<int> segment_counts(std::size_t rays, const RayLayout& layout) {
+std::vector<int> segment_counts(const RayLayout& layout) {
     std::vector<int> entries(2 * layout.segments);
     for (std::size_t i = 0; i < entries.size(); i++) {
-        std::size_t before = std::min(rays, i / 2 * layout.size);
-        entries[i] = static_cast<int>(std::min(layout.size, rays - before));
+        std::size_t before = std::min(layout.rays, i / 2 * layout.size);
+        entries[i] = static_cast<int>(std::min(layout.size, layout.rays - before));
     }
     return entries;
 }
@@ -53,10 +53,9 @@ std::vector<float> shadow_state(std::span<const TracedRay> rays, const RayLayout
     return state;
 }
 
-std::vector<TracedHit> read_hits(std::span<const float> path_state, std::size_t rays,
-                                 const RayLayout& layout) {
-    std::vector<TracedHit> hits(rays);
-    for (std::size_t i = 0; i < rays; i++) {
+std::vector<TracedHit> read_hits(std::span<const float> path_state, const RayLayout& layout) {
+    std::vector<TracedHit> hits(layout.rays);
+    for (std::size_t i = 0; i < layout.rays; i++) {
         auto word = [&](std::size_t field) {
             return path_state[field * layout.stride + layout.place(i)];
         };

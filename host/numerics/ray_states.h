@@ -21,24 +21,23 @@ struct TracedHit {
     bool operator==(const TracedHit&) const = default;
 };
 
-/// Where rays stand: segments of `size`, each with room for `pitch`, and fields of a state
+/// Where so many rays stand: segments of `size`, each with room for `pitch`, and fields of a state
 /// `stride` words apart.
 struct RayLayout {
-    std::size_t segments, size, pitch, stride;
+    std::size_t rays, segments, size, pitch, stride;
 
     std::size_t place(std::size_t ray) const { return ray / size * pitch + ray % size; }
 };
 
 /// Entries of each segment, twice: of paths and of shadow rays.
-std::vector<int> segment_counts(std::size_t rays, const RayLayout& layout);
+std::vector<int> segment_counts(const RayLayout& layout);
 
 std::vector<float> path_state(std::span<const TracedRay> rays, const RayLayout& layout);
 
 /// Ray i brings the radiance (1, 2, 4) to slot i.
 std::vector<float> shadow_state(std::span<const TracedRay> rays, const RayLayout& layout);
 
-std::vector<TracedHit> read_hits(std::span<const float> path_state, std::size_t rays,
-                                 const RayLayout& layout);
+std::vector<TracedHit> read_hits(std::span<const float> path_state, const RayLayout& layout);
 
 /// Whether something was in a ray's way; `results` had zeros before, its fields `stride` words
 /// apart. Throws std::runtime_error where a ray's radiance has not arrived as it was.

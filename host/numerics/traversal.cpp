@@ -21,7 +21,7 @@ namespace {
 RayLayout layout_of(std::size_t rays) {
     constexpr std::size_t segment = 2048;
     std::size_t segments = (rays + segment - 1) / segment;
-    return {segments, segment, segment, segments * segment};
+    return {rays, segments, segment, segment, segments * segment};
 }
 
 template<class T>
@@ -77,19 +77,10 @@ struct Traversal::Work {
     static Work of_shadow_rays(Rays rays, const RayLayout& layout) {
         return {shadow_state(rays, layout), std::vector<float>(result_field_count * layout.stride)};
     }
-    std::vector<TracedHit> hits(std::size_t rays, const RayLayout& layout) const {
-        return read_hits(state, rays, layout);
+    std::vector<TracedHit> hits(const RayLayout& layout) const { return read_hits(state, layout); }
+    std::vector<bool> blocked(const RayLayout& layout) const {
+        return read_blocked(results, layout.rays, layout.stride);
     }
-    std::vector<bool> blocked(std::size_t rays, const RayLayout& layout) const {
-        return read_blocked(results, rays, layout.stride);
-    }
-};
-
-/// Of one kernel over all segments.
-struct Traversal::Launch {
-    Stage stage;
-    std::size_t rays;
-    RayLayout layout;
 };
 
 /// What is asked of rays: a kernel, the state it starts from, and the answers in what it leaves.
@@ -97,7 +88,7 @@ template<class Answer>
 struct Traversal::Question {
     Stage stage;
     Work (*state)(Rays, const RayLayout&);
-    std::vector<Answer> (Work::*read)(std::size_t rays, const RayLayout&) const;
+    std::vector<Answer> (Work::*read)(const RayLayout&) const;
 };
 
 struct Traversal::Device {
@@ -138,17 +129,17 @@ std::vector<Answer> Traversal::answers(Rays rays, const Question<Answer>& q) {
     RayLayout layout = layout_of(rays.size());
     auto ask = [&](const Program& program) {
         Work work = q.state(rays, layout);
-        run_on_device(program, {q.stage, rays.size(), layout}, work);
-        return (work.*q.read)(rays.size(), layout);
+        run_on_device(program, q.stage, layout, work);
+        return (work.*q.read)(layout);
     };
     std::vector<Answer> found = same_answers(ask(device_->packets), ask(device_->streams));
     if (host_share_ > 0) {
         Rays some = rays.first((rays.size() + host_share_ - 1) / host_share_);
         RayLayout part = layout_of(some.size());
         Work work = q.state(some, part);
-        run_on_host({q.stage, some.size(), part}, work);
+        run_on_host(q.stage, part, work);
         host_answers_.rays += some.size();
-        host_answers_.differing += differing((work.*q.read)(some.size(), part), found);
+        host_answers_.differing += differing((work.*q.read)(part), found);
     }
     return found;
 }
@@ -171,37 +162,37 @@ RenderParams Traversal::params(const RayLayout& layout) const {
     return params;
 }
 
-void Traversal::run_on_host(const Launch& l, Work& work) const {
+void Traversal::run_on_host(Stage stage, const RayLayout& layout, Work& work) const {
     WaveMemory<float> memory{WorkSizes{}};
-    memory.counts = segment_counts(l.rays, l.layout);
-    memory.statistics.resize(statistic_count * l.layout.segments);
+    memory.counts = segment_counts(layout);
+    memory.statistics.resize(statistic_count * layout.segments);
     memory.results = std::move(work.results);
-    auto& state = l.stage == Stage::shadow ? memory.shadow_state : memory.path_state;
+    auto& state = stage == Stage::shadow ? memory.shadow_state : memory.path_state;
     state = std::move(work.state);
     FeatureSet features = FeatureSet::all() - FeatureSet{feature_ray_streams};
-    HostLaunch<float> launch{scene_arrays(scene_), params(l.layout), features, WaveParams{},
-                             memory};
-    parallel_for(l.layout.segments, [&](std::size_t number) {
-        run_work_item(l.stage, launch, 1, static_cast<int>(number));
+    HostLaunch<float> launch{scene_arrays(scene_), params(layout), features, WaveParams{}, memory};
+    parallel_for(layout.segments, [&](std::size_t number) {
+        run_work_item(stage, launch, 1, static_cast<int>(number));
     });
     work.state = std::move(state);
     work.results = std::move(memory.results);
 }
 
-void Traversal::run_on_device(const Program& program, const Launch& l, Work& work) const {
+void Traversal::run_on_device(const Program& program, Stage stage, const RayLayout& layout,
+                              Work& work) const {
     const RenderDevice& d = device_->device;
     WaveBuffers buffers; // empty where these kernels read nothing
-    Buffer<float>& state = l.stage == Stage::shadow ? buffers.shadow_state : buffers.path_state;
+    Buffer<float>& state = stage == Stage::shadow ? buffers.shadow_state : buffers.path_state;
     state = device_copy(d, "state", work.state);
     buffers.results = device_copy(d, "results", work.results);
-    buffers.counts = device_copy(d, "counts", segment_counts(l.rays, l.layout));
+    buffers.counts = device_copy(d, "counts", segment_counts(layout));
     buffers.statistics =
-        device_copy(d, "statistics", std::vector<ulong>(statistic_count * l.layout.segments));
-    cl::Kernel kernel = program.kernel(stage_names[static_cast<std::size_t>(l.stage)]);
-    bind_arguments(kernel, device_->buffers, buffers, Buffer<float>(), params(l.layout));
+        device_copy(d, "statistics", std::vector<ulong>(statistic_count * layout.segments));
+    cl::Kernel kernel = program.kernel(stage_names[static_cast<std::size_t>(stage)]);
+    bind_arguments(kernel, device_->buffers, buffers, Buffer<float>(), params(layout));
     kernel.setArg(wave_argument, WaveParams{});
     kernel.setArg(depth_argument, 1);
-    d.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(l.layout.segments),
+    d.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(layout.segments),
                                  cl::NDRange(1));
     d.queue.finish();
     work.state = host_copy(d, state);

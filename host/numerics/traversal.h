@@ -48,15 +48,15 @@ public:
     HostAnswers take_host_answers() { return std::exchange(host_answers_, {}); }
 
 private:
-    struct Launch;
     struct Work;
     using Rays = std::span<const TracedRay>;
     template<class Answer>
     struct Question;
     template<class Answer>
     std::vector<Answer> answers(Rays rays, const Question<Answer>& question);
-    void run_on_device(const Program& program, const Launch& launch, Work& work) const;
-    void run_on_host(const Launch& launch, Work& work) const;
+    void run_on_device(const Program& program, Stage stage, const RayLayout& layout,
+                       Work& work) const;
+    void run_on_host(Stage stage, const RayLayout& layout, Work& work) const;
     RenderParams params(const RayLayout& layout) const;
 
     struct Device; ///< programs and buffers
