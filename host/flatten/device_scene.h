@@ -28,6 +28,7 @@ struct DeviceScene {
     SceneFrame frame;
     IndexedGeometry geometry; ///< its shapes are those of the scene
     std::vector<MaterialRecord> materials;
+    std::vector<LobeRecord> lobes; ///< lists, one behind the other
     std::vector<LightRecord> lights;
     LightTree light_tree;             ///< empty where there is only one light
     std::vector<float> energy_tables; ///< one behind the other; materials know their first

@@ -30,6 +30,7 @@ inline SceneArrays scene_arrays(const DeviceScene& scene) {
             scene.geometry.points,
             with_a_row(scene.geometry.shapes),
             with_a_row(scene.materials),
+            with_a_row(scene.lobes),
             scene.lights,
             scene.light_tree.nodes,
             scene.light_tree.leaves,

@@ -32,6 +32,7 @@
     X(soft_terminator)    /* with diffuse light fading towards the true horizon */                 \
     X(vertex_uvs)         /* some mesh has texture coordinates, and something reads them */         \
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
+    X(blends)             /* some surface is several materials at once */                            \
     X(ggx) X(beckmann) X(anisotropy)                                                               \
     X(energy_compensation) /* some rough lobe makes up for what it scatters more than once */      \
     X(faure)              /* samples of a pixel in a pattern; without: independent */               \

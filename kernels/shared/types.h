@@ -65,7 +65,7 @@
 // What all primitives of a shape have in common. There is room, for a transform's row say.
 #define SHAPE_FIELDS(X)                                                                            \
     X(int, flags)                                /* geometry kind | PRIMITIVE_* */                  \
-    X(int, material_front) X(int, material_back) /* -1: absorbs */                                 \
+    X(int, material_front) X(int, material_back) /* materials.h */                                \
     X(int, first_primitive)                                                                        \
     X(int, unused0) X(int, unused1) X(int, unused2) X(int, unused3)
 
@@ -81,6 +81,11 @@
     X(float, kr) X(float, kg) X(float, kb)    /* conductor k */                                    \
     X(float, alpha_u) X(float, alpha_v)                                                            \
     X(int, distribution)                      /* bit 0: 0 GGX, 1 Beckmann; above: 1 + its energy table, 0: none */
+
+// A surface that is several materials at once has a list of lobes, one behind the other: the share of each, of all before it, and how
+// many are behind it. Shares add up to 1; each has its own material.
+#define LOBE_FIELDS(X)                                                                             \
+    X(int, material) X(float, weight) X(float, below) X(int, behind)
 
 // A table of the share of light that single scattering sends on: a row of cosines for each azimuth.
 #define ENERGY_COSINES 129
@@ -112,7 +117,7 @@
 // All that scenes store: the struct of lanes, its fields, how many they are.
 #define RECORDS(X)                                                                                 \
     X(IndexedPrimitive, INDEXED_PRIMITIVE_FIELDS, 7) X(Shape, SHAPE_FIELDS, 8)                     \
-    X(Material, MATERIAL_FIELDS, 16)                                                               \
+    X(Material, MATERIAL_FIELDS, 16) X(Lobe, LOBE_FIELDS, 4)                                       \
     X(Light, LIGHT_FIELDS, 16) X(LightNode, LIGHT_NODE_FIELDS, 16)
 // And what is made of that.
 #define MADE_OF_RECORDS(X) X(Primitive, PRIMITIVE_FIELDS, 11) X(Vertex, VERTEX_FIELDS, 15)

@@ -21,6 +21,7 @@ void empty_primitives(DeviceScene& s) { s.geometry.primitives.resize(1); }
 void empty_points(DeviceScene& s) { s.geometry.points.clear(); }
 void empty_shapes(DeviceScene& s) { s.geometry.shapes.resize(1); }
 void empty_materials(DeviceScene& s) { s.materials.resize(1); }
+void empty_lobes(DeviceScene& s) { s.lobes.resize(1); }
 void empty_lights(DeviceScene& s) { s.lights.clear(); }
 void empty_light_nodes(DeviceScene& s) { s.light_tree.nodes.clear(); }
 void empty_light_leaves(DeviceScene& s) { s.light_tree.leaves.clear(); }
@@ -68,6 +69,8 @@ TEST_CASE("Bounds: every table of a scene is looked after", "[bounds]") {
         scene.film.filter.kind = FilterKind::gaussian;
         if (std::string(table.name) == "filter_table")
             scene.film.filter_method = FilterMethod::sampling;
+        if (std::string(table.name) == "lobes")
+            scene.shapes[0].material_front = add_blend(scene, {0.5, 0, 1});
         set_energy_compensation(scene, std::string(table.name) == "energy_tables");
         DeviceScene whole = make_device_scene(scene);
         run_every_stage(scene, whole, whole);
