@@ -21,7 +21,8 @@
     X(roughconductor, RoughConductor, opaque)                                                      \
     X(roughdielectric, RoughDielectric, transparent)                                               \
     X(null, Null, passing)                                                                         \
-    X(roughdiffuse, RoughDiffuse, matte)
+    X(roughdiffuse, RoughDiffuse, matte)                                                           \
+    X(plastic, Plastic, opaque)
 
 // Parameters: what it is (host/scene/parameter.h), name, value of one that is missing, where its numbers may lie
 // (a domain of host/scene/mitsuba/number_parameters.cpp, or one in brackets), what it becomes in a MaterialRecord: one of
@@ -58,6 +59,13 @@
 #define PARAMETERS_roughdiffuse(X)                                                                 \
     X(Color, reflectance, 0.5, share, reflectance)                                                 \
     X(Number, alpha, 0.2, (between(0, 10)), alpha_u)
+
+// `nonlinear`: what the coat sends back to the base is tinted each time that it is reflected.
+#define PARAMETERS_plastic(X)                                                                      \
+    X(Index, eta, plastic_in_air, refractive_index, interface)                                     \
+    X(Color, diffuse_reflectance, 0.5, share, reflectance)                                         \
+    X(Color, specular_reflectance, 1.0, share, transmittance)                                      \
+    X(Flag, nonlinear, false, , nothing)
 // clang-format on
 
 #define KIND_MATERIAL(name, ...) material_##name,

@@ -75,9 +75,12 @@ bool read(parameter::Flag, Properties& p, std::string_view name, bool missing) {
     return p.boolean(name, missing);
 }
 
-double read(parameter::Index, Properties& p, std::string_view, double) {
-    const double inside = read_index(p, "int_ior", 1.5046);
-    return inside / read_index(p, "ext_ior", 1.000277);
+double read(parameter::Index, Properties& p, std::string_view, double missing) {
+    constexpr double air = 1.000277;
+    const bool given = p.has("int_ior") || p.has("ext_ior");
+    const double inside = read_index(p, "int_ior", missing * air);
+    const double outside = read_index(p, "ext_ior", air);
+    return given ? inside / outside : missing;
 }
 
 double read(parameter::SeparateIndex, Properties& p, std::string_view name, double missing) {
