@@ -22,7 +22,7 @@ struct Reading {
     Properties p{document, object, notes};
 };
 
-SurfaceMaterials read_surface(Reading r);
+SurfaceMaterials read_surface(Reading&& r);
 
 template<Bsdf (*Read)(Properties&)>
 SurfaceMaterials read_material(Reading& r) {
@@ -110,7 +110,7 @@ SurfaceMaterials read_mask(Reading& r) {
 
 #define NESTING_BSDFS(X) X(twosided) X(mask) X(blendbsdf)
 
-SurfaceMaterials read_surface(Reading r) {
+SurfaceMaterials read_surface(Reading&& r) {
     using BsdfReader = SurfaceMaterials (*)(Reading&);
 #define MATERIAL_PLUGIN(name, ...) PluginEntry<BsdfReader>{#name, read_material<read_##name>},
 #define NESTING_PLUGIN(name) PluginEntry<BsdfReader>{#name, read_##name},
