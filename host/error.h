@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace parhelion {
 
@@ -20,10 +21,12 @@ enum class ExitCode {
 };
 
 /// A scene, file, or command line that cannot be used. `what()` is one line, without a trailing
-/// newline.
+/// newline, or one for each thing that is wrong.
 class InputError : public std::runtime_error {
 public:
     explicit InputError(const std::string& message) : std::runtime_error(as_one_line(message)) {}
+    explicit InputError(const std::vector<std::string>& messages)
+        : std::runtime_error(as_lines(messages)) {}
 };
 
 /// An OpenCL platform, device, compiler or launch that failed. `what()` is one line (a build log

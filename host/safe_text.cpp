@@ -76,4 +76,11 @@ std::string safe_text(std::string_view text) { return escaped(text, "\n\t"); }
 
 std::string as_one_line(std::string_view text) { return escaped(text, ""); }
 
+std::string as_lines(const std::vector<std::string>& texts) {
+    std::string lines;
+    for (const std::string& text : texts)
+        lines += (lines.empty() ? "" : "\n") + as_one_line(text);
+    return lines;
+}
+
 } // namespace parhelion

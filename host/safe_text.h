@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace parhelion {
 
@@ -15,5 +16,8 @@ std::string safe_text(std::string_view text);
 /// The same, and line ends and tabs are escapes as well: names and values that a message repeats
 /// cannot break its line.
 std::string as_one_line(std::string_view text);
+
+/// Each of `texts` as one line, and line ends between them.
+std::string as_lines(const std::vector<std::string>& texts);
 
 } // namespace parhelion

@@ -32,8 +32,7 @@ FeatureSet wanted_features(const CompileCommand& c) {
         throw InputError("compile: needs a scene or --features, and not both");
     if (!c.features.empty())
         return c.features.front() == no_feature ? FeatureSet() : FeatureSet::of(c.features);
-    Scene scene = load_scene(c.image.scene_file,
-                             {parse_definitions(c.image.definitions), c.image.allow_outside});
+    Scene scene = load_scene(c.image.scene_file, load_options(c.image));
     apply_overrides(c.image, scene);
     return render_features(make_device_scene(scene), c.image.options);
 }

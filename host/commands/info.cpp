@@ -2,6 +2,7 @@
 #include "host/commands/info.h"
 
 #include "host/commands/render.h"
+#include "host/commands/render_domains.h"
 #include "host/error.h"
 #include "host/flatten/device_scene.h"
 #include "host/flatten/kind_names.h"
@@ -21,9 +22,8 @@ namespace parhelion {
 namespace {
 
 struct InfoCommand {
-    std::string scene_file;
-    std::vector<std::string> definitions;
-    bool energy_compensation = true, allow_outside = false, json = false;
+    RenderCommand image; ///< what of it decides which kernels there are
+    bool json = false;
 };
 
 nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
@@ -41,6 +41,7 @@ nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
     for (const LightRecord& l : flat.lights)
         lights[emitter_names[l.kind]]++;
     return {{"scene", scene.file},
+            {"sensors", scene.sensors},
             {"film", {{"width_pixels", scene.film.width}, {"height_pixels", scene.film.height}}},
             {"samples_per_pixel", scene.sampler.samples_per_pixel},
             {"frame", to_json(flat.frame)},
@@ -84,6 +85,9 @@ std::string text_of(const nlohmann::json& info) {
     add("film",
         fmt::format("{} x {} pixels, {} spp", film["width_pixels"].get<int>(),
                     film["height_pixels"].get<int>(), info["samples_per_pixel"].get<int>()));
+    if (info["sensors"].size() > 1)
+        add("sensors",
+            fmt::format("{}", fmt::join(info["sensors"].get<std::vector<std::string>>(), ", ")));
     add("frame", fmt::format("centre ({:g}), unit 2^{}",
                              fmt::join(frame["centre"].get<std::vector<double>>(), ", "),
                              frame["unit_exponent"].get<int>()));
@@ -105,9 +109,8 @@ std::string text_of(const nlohmann::json& info) {
 }
 
 int run_info(const InfoCommand& command) {
-    Scene scene = load_scene(command.scene_file,
-                             {parse_definitions(command.definitions), command.allow_outside});
-    if (!command.energy_compensation) leave_out_energy_compensation(scene);
+    Scene scene = load_scene(command.image.scene_file, load_options(command.image));
+    apply_overrides(command.image, scene);
     nlohmann::json info = describe(scene, make_device_scene(scene));
     print(command.json ? json_text(info) : text_of(info));
     return static_cast<int>(ExitCode::ok);
@@ -122,14 +125,16 @@ Subcommand info_subcommand() {
         .summary = "Say what is in a scene and what its kernels will have",
         .examples =
             "Example:\n  parhelion info scenes/cornell-box/scene.xml --json | jq .kernel_features",
-        .options = {{"scene", &c->scene_file, "Scene file (Mitsuba 3 XML)", {.required = true}},
-                    {"-D,--define", &c->definitions,
-                     "name=value for the scene's $name (repeat for more)"},
-                    {"!--no-energy-compensation", &c->energy_compensation,
-                     energy_compensation_help},
-                    {"--allow-outside", &c->allow_outside,
-                     "Let the scene name files outside its own folder"},
-                    {"--json", &c->json, "One JSON object"}},
+        .options =
+            {{"scene", &c->image.scene_file, "Scene file (Mitsuba 3 XML)", {.required = true}},
+             {"-D,--define", &c->image.definitions,
+              "name=value for the scene's $name (repeat for more)"},
+             {"--sensor", &c->image.sensor, sensor_help, {.domain = sensor_domain}},
+             {"--integrator", &c->image.integrator, integrator_help},
+             {"!--no-energy-compensation", &c->image.energy_compensation, energy_compensation_help},
+             {"--allow-outside", &c->image.allow_outside,
+              "Let the scene name files outside its own folder"},
+             {"--json", &c->json, "One JSON object"}},
         .run = [c] { return run_info(*c); },
     };
 }

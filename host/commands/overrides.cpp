@@ -121,6 +121,13 @@ void leave_out_energy_compensation(Scene& scene) {
         std::visit(leave_out, material.bsdf);
 }
 
+LoadOptions load_options(const RenderCommand& command) {
+    return {.parameters = parse_definitions(command.definitions),
+            .allow_outside = command.allow_outside,
+            .sensor = command.sensor,
+            .own_integrator = command.integrator.has_value()};
+}
+
 void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (command.size && !command.crop && is_cropped(scene.film))
         scene.notes.push_back(lost_crop_note(scene.film));

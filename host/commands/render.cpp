@@ -89,8 +89,7 @@ int run_render(const RenderCommand& command) {
 
     progress.start("loading " + command.scene_file);
     auto start = Clock::now();
-    Scene scene = load_scene(command.scene_file,
-                             {parse_definitions(command.definitions), command.allow_outside});
+    Scene scene = load_scene(command.scene_file, load_options(command));
     apply_overrides(command, scene);
     check_distinct(outputs_of(command), files_of(scene));
     note_lost_layers(command, scene);

@@ -4,6 +4,7 @@
 #include "host/commands/command_line.h"
 #include "host/image/distinct_files.h"
 #include "host/render/device_render.h"
+#include "host/scene/load.h"
 
 #include <array>
 #include <optional>
@@ -19,7 +20,7 @@ struct RenderCommand {
     std::vector<std::string> aovs;
     std::optional<std::string> integrator, size, crop, sampler, filter_method, precision,
         shading_normals;
-    std::optional<int> samples, replicates, max_depth, rr_depth;
+    std::optional<int> samples, replicates, max_depth, rr_depth, sensor;
     std::optional<std::uint32_t> seed;
     std::optional<double> exposure;
     std::optional<std::string> pixel; ///< X,Y of the sample to trace
@@ -34,6 +35,9 @@ struct RenderCommand {
 /// Loads, renders and writes; the exit code. Throws InputError before any output exists, or
 /// DeviceError.
 int run_render(const RenderCommand& command);
+
+/// What of it a scene is read by. Throws InputError for definitions that are none.
+LoadOptions load_options(const RenderCommand& command);
 
 /// What a scene was read from: no output may be one of them.
 std::vector<UsedFile> files_of(const Scene& scene);
@@ -55,6 +59,12 @@ int run_trace(const RenderCommand& command);
 
 /// Rough lobes of single scattering alone, as Mitsuba and others have them.
 void leave_out_energy_compensation(Scene& scene);
+
+/// What --sensor and --integrator do, for the options of several subcommands.
+inline constexpr const char* sensor_help =
+    "Which of the scene's sensors, by its place in the file; `info` names them (0)";
+inline constexpr const char* integrator_help =
+    "path, direct, normals, depth or aov; in the place of any that the scene names";
 
 /// What --no-energy-compensation does, for the options of several subcommands.
 inline constexpr const char* energy_compensation_help =

@@ -11,6 +11,7 @@ inline constexpr Domain crop_domain = whole_number(0, 65536).in("pixels");
 /// The border that a filter reaches is negative, or behind the film.
 inline constexpr Domain pixel_domain =
     whole_number(-FILTER_REACH_LIMIT, 65535 + FILTER_REACH_LIMIT);
+inline constexpr Domain sensor_domain = whole_number(0, largest_int);
 inline constexpr Domain sample_domain = whole_number(0, largest_int - 1);
 /// From the least to the largest value that an image can hold, to white.
 inline constexpr Domain exposure_domain = between(-128, 128).in("stops");

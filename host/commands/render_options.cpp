@@ -48,7 +48,8 @@ std::vector<Option> image_options(RenderCommand& c) {
 
 std::vector<Option> light_options(RenderCommand& c) {
     return of_samples({
-        {"--integrator", &c.integrator, "path, direct, normals, depth or aov"},
+        {"--integrator", &c.integrator, integrator_help},
+        {"--sensor", &c.sensor, sensor_help, {.domain = sensor_domain}},
         {"--max-depth",
          &c.max_depth,
          "Longest path in edges: 1 emitters only, 2 direct light, -1 no limit",

@@ -13,6 +13,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <sstream>
 
 #include <unistd.h>
 
@@ -20,7 +21,9 @@ namespace parhelion {
 namespace {
 
 int fail(ExitCode code, const std::string& what) {
-    say("parhelion: " + what);
+    std::istringstream lines(what);
+    for (std::string line; std::getline(lines, line);)
+        say("parhelion: " + line);
     return static_cast<int>(code);
 }
 

@@ -32,8 +32,7 @@ int checked_sample(int sample, int samples_per_pixel) {
 
 int run_trace(const RenderCommand& command) {
     check_trace(command);
-    Scene scene = load_scene(command.scene_file,
-                             {parse_definitions(command.definitions), command.allow_outside});
+    Scene scene = load_scene(command.scene_file, load_options(command));
     check_distinct({{"--json", command.json_file}}, files_of(scene));
     apply_overrides(command, scene);
     Progress progress = Progress::standard(command.quiet);

@@ -2,12 +2,12 @@
 #include "host/flatten/scene_frame.h"
 
 #include "host/error.h"
-#include "host/parallel.h"
+#include "host/scene/shape_bounds.h"
 
 #include <fmt/format.h>
 
 #include <glm/common.hpp>
-#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,42 +17,6 @@ namespace parhelion {
 namespace {
 
 constexpr int size_exponent = 10; // of the largest side, in units of the device
-
-struct Bounds {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-};
-
-Bounds join(const Bounds& a, const Bounds& b) {
-    return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
-}
-
-// Boxes around shapes, relative to the camera.
-
-Bounds bounds_of(const Mesh& mesh, const glm::dvec3& camera) {
-    // Of triangles: a vertex that none uses is not there.
-    auto grow = [&](Bounds box, std::size_t triangle) {
-        for (int k = 0; k < 3; k++) {
-            const glm::dvec3& p = mesh.positions[mesh.triangles[triangle][k]];
-            box = join(box, {p, p});
-        }
-        return box;
-    };
-    Bounds box = parallel_sum(mesh.triangles.size(), Bounds{}, grow, join);
-    return {box.low - camera, box.high - camera};
-}
-
-Bounds bounds_around(const glm::dvec3& centre, const glm::dvec3& reach) {
-    return {centre - reach, centre + reach};
-}
-
-Bounds bounds_of(const Sphere& s, const glm::dvec3& camera) {
-    return bounds_around(s.center - camera, glm::dvec3(s.radius));
-}
-
-Bounds bounds_of(const Disk& d, const glm::dvec3& camera) {
-    return bounds_around(d.center - camera, glm::sqrt(d.edge_u * d.edge_u + d.edge_v * d.edge_v));
-}
 
 double scale_for(const glm::dvec3& extent, const std::string& file) {
     if (!std::isfinite(extent.x) || !std::isfinite(extent.y) || !std::isfinite(extent.z))
@@ -67,7 +31,7 @@ double scale_for(const glm::dvec3& extent, const std::string& file) {
 }
 
 /// SceneFrame::start for a box about the camera.
-double start_before(const Bounds& box, const Camera& camera) {
+double start_before(const ShapeBounds& box, const Camera& camera) {
     glm::dvec3 axis(camera.to_world[2]), extent = box.high - box.low;
     // The nearest corner: of each coordinate the end that adds least.
     glm::dvec3 along = glm::min(box.low * axis, box.high * axis) / glm::dot(axis, axis);
@@ -96,11 +60,10 @@ Disk SceneFrame::disk(Disk d) const {
 SceneFrame scene_frame(const Scene& scene) {
     SceneFrame frame;
     frame.camera = glm::dvec3(scene.camera.to_world[3]);
-    Bounds box;
+    ShapeBounds box;
     for (const Shape& shape : scene.shapes)
-        box = join(box, std::visit([&](const auto& g) { return bounds_of(g, frame.camera); },
-                                   shape.geometry));
-    if (box.low.x > box.high.x) return frame;
+        box = join(box, bounds_of(shape.geometry, frame.camera));
+    if (box.empty()) return frame;
     frame.shift = glm::clamp(glm::dvec3(0.0), box.low, box.high);
     // Seen from so far away that nobody can see it, the scene is a point: in a unit of its own size
     // the camera's place would be no number in single precision.

@@ -3,6 +3,7 @@
 
 #include "host/scene/text.h"
 
+#include <algorithm>
 #include <fstream>
 
 namespace parhelion {
@@ -14,6 +15,22 @@ namespace {
 bool is_below(const fs::path& path, const fs::path& folder) {
     const fs::path relative = path.lexically_relative(folder);
     return !relative.empty() && *relative.begin() != "..";
+}
+
+/// The folders of `candidates`, each once.
+std::string looked_in(const std::vector<fs::path>& candidates) {
+    std::vector<std::string> folders;
+    for (const fs::path& candidate : candidates) {
+        const fs::path folder = candidate.parent_path();
+        const std::string name =
+            in_quotes(folder.empty() ? "." : folder.lexically_normal().string());
+        if (std::find(folders.begin(), folders.end(), name) == folders.end())
+            folders.push_back(name);
+    }
+    std::string list;
+    for (const std::string& folder : folders)
+        list += (list.empty() ? " (looked in: " : ", ") + folder;
+    return list + ")";
 }
 
 } // namespace
@@ -50,7 +67,7 @@ fs::path FileFinder::find(const std::string& name, const SourceLocation& place,
                        " lies outside the scene's folder (use --allow-outside to permit it)");
         return candidate;
     }
-    refuse(place, std::string(kind) + " " + in_quotes(name) + " not found");
+    refuse(place, std::string(kind) + " " + in_quotes(name) + " not found" + looked_in(candidates));
 }
 
 fs::path FileFinder::file(const std::string& name, const SourceLocation& place) const {

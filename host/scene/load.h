@@ -4,18 +4,22 @@
 #include "host/scene/scene.h"
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace parhelion {
 
 struct LoadOptions {
     std::map<std::string, std::string>
-        parameters;             ///< -D name=value, replacing the file's <default>s
-    bool allow_outside = false; ///< let the scene name files outside its own folder
+        parameters;              ///< -D name=value, replacing the file's <default>s
+    bool allow_outside = false;  ///< let the scene name files outside its own folder
+    std::optional<int> sensor{}; ///< which of the file's, from 0; absent: the first
+    /// The caller brings an integrator: one in the file that is not known is no mistake then.
+    bool own_integrator = false;
 };
 
 /// Loads a scene (the format is chosen by the file's extension).
-/// Throws InputError, one line, for anything that cannot be rendered exactly as written.
+/// Throws InputError, a line for each thing that cannot be rendered exactly as written.
 Scene load_scene(const std::string& file, const LoadOptions& options = {});
 
 } // namespace parhelion

@@ -1,4 +1,4 @@
-// What every reader promises for every input: an answer, or an InputError with one line to print.
+// What every reader promises for every input: an answer, or an InputError with lines to print.
 #pragma once
 
 #include "host/error.h"
@@ -32,7 +32,10 @@ int answer_or_refusal(const Use& use) {
     try {
         use();
     } catch (const InputError& error) {
-        check_message(error.what());
+        std::string_view rest = error.what();
+        for (std::size_t end; (end = rest.find('\n')) != rest.npos; rest.remove_prefix(end + 1))
+            check_message(rest.substr(0, end));
+        check_message(rest);
     }
     return 0;
 }

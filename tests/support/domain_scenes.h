@@ -66,6 +66,7 @@ struct DomainScene {
     std::string integrator = "<integrator type='path'><integer name='max_depth' value='64'/>"
                              "</integrator>";
     std::string camera = "perspective", camera_numbers = "<float name='fov' value='10'/>";
+    std::string film_plugin = "hdrfilm";
     std::string film = "<integer name='width' value='4'/><integer name='height' value='4'/>";
     std::string filter = "<rfilter type='box'/>";
     std::string sampler = "<sampler type='independent'><integer name='sample_count' value='16'/>"
@@ -77,8 +78,8 @@ struct DomainScene {
         return fmt::format(
             "<scene version='3.0.0'>{}<sensor type='{}'>{}<transform name='to_world'>"
             "<lookat origin='0,0,4' target='0,0,0' up='0,1,0'/></transform>"
-            "<film type='hdrfilm'>{}{}</film>{}</sensor>{}<shape type='{}'>{}{}</shape></scene>",
-            integrator, camera, camera_numbers, film, filter, sampler, emitter, shape,
+            "<film type='{}'>{}{}</film>{}</sensor>{}<shape type='{}'>{}{}</shape></scene>",
+            integrator, camera, camera_numbers, film_plugin, film, filter, sampler, emitter, shape,
             shape_numbers, bsdf);
     }
 };
@@ -92,7 +93,7 @@ inline std::string domain_scene(const NumberParameter& p, std::string_view plugi
     if (p.tag == "integrator") scene.integrator = whole;
     if (p.tag == "sampler") scene.sampler = whole;
     if (p.tag == "rfilter") scene.filter = whole;
-    if (p.tag == "film") scene.film += number;
+    if (p.tag == "film") scene.film_plugin = plugin, scene.film += number;
     if (p.tag == "film" && (p.name == "width" || p.name == "height")) scene.film = number;
     if (p.tag == "emitter" && plugin != "area") scene.emitter = whole;
     if (p.tag == "emitter" && plugin == "area") scene.emitter.clear(), scene.shape_numbers = whole;
@@ -103,7 +104,11 @@ inline std::string domain_scene(const NumberParameter& p, std::string_view plugi
             scene.camera_numbers += "<float name='fov' value='10'/>";
     }
     if (p.tag == "shape") scene.shape = plugin, scene.shape_numbers = number;
-    if (p.tag == "spectrum")
+    if (p.tag == "spectrum" && p.form != NumberForm::step)
+        scene.emitter = fmt::format("<emitter type='constant'><spectrum name='radiance' "
+                                    "type='{}'>{}</spectrum></emitter>",
+                                    plugin, number);
+    else if (p.tag == "spectrum")
         scene.emitter = fmt::format("<emitter type='constant'><spectrum name='radiance' "
                                     "value='{}:1, 1e9:1'/></emitter>",
                                     value);

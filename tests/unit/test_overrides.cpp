@@ -29,7 +29,9 @@ RenderCommand parsed(const Arguments& arguments) {
 std::string scene_with(const std::string& integrator, const std::string& sensor) {
     return "<scene version=\"3.0.0\"><default name=\"grey\" value=\"0.25\"/>" + integrator +
            "<sensor type=\"perspective\">" + sensor +
-           "</sensor><shape type=\"sphere\"><bsdf type=\"diffuse\"><float name=\"reflectance\" "
+           "</sensor><sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"width\" "
+           "value=\"9\"/></film></sensor><shape type=\"sphere\"><bsdf type=\"diffuse\"><float "
+           "name=\"reflectance\" "
            "value=\"$grey\"/></bsdf></shape><shape type=\"sphere\"><bsdf type=\"roughconductor\"/>"
            "</shape></scene>";
 }
@@ -47,8 +49,7 @@ const std::string full = scene_with(
 Scene scene_after(const std::string& text, const Arguments& arguments) {
     const SceneFolder folder;
     RenderCommand command = parsed(arguments);
-    Scene scene = load_scene(folder.write("scene.xml", text),
-                             {parse_definitions(command.definitions), false});
+    Scene scene = load_scene(folder.write("scene.xml", text), load_options(command));
     apply_overrides(command, scene);
     return scene;
 }
@@ -84,6 +85,7 @@ std::vector<Precedence> table() {
     auto compensation = [](const Scene& s) {
         return text(std::get<RoughConductorBsdf>(s.materials.at(1).bsdf).energy_compensation);
     };
+    auto width = [](const Scene& s) { return text(s.film.width); };
     auto method = [](const Scene& s) { return text(static_cast<int>(s.film.filter_method)); };
     auto aovs = [](const Scene& s) {
         std::string names;
@@ -144,6 +146,7 @@ std::vector<Precedence> table() {
          "false"},
         {"--filter-by", {"--filter-by", "sampling"}, method, "0", "0", "1"},
         {"--aov", {"--aov", "albedo,normals"}, aovs, "", "", "albedo:albedo normals:sh_normal "},
+        {"--sensor", {"--sensor", "1"}, width, "768", "50", "9"},
         {"--define", {"-D", "grey=0.75"}, grey, "0.25", "0.25", "0.75"},
         {"--crop",
          {"--crop", "1,2,3,4"},

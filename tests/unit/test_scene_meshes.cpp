@@ -57,9 +57,10 @@ std::string binary_ply(bool big) {
 /// One mesh of a serialized file: magic, version and the deflated rest.
 template<typename Real>
 std::string serialized_mesh(std::uint32_t flags, std::uint16_t version, Real x,
-                            std::uint32_t last_index = 2, std::uint64_t vertices = 3) {
+                            std::uint32_t last_index = 2, std::uint64_t vertices = 3,
+                            bool says_precision = true) {
     std::string content;
-    put(content, flags | (sizeof(Real) == 8 ? 0x2000u : 0x1000u));
+    put(content, flags | (!says_precision ? 0u : sizeof(Real) == 8 ? 0x2000u : 0x1000u));
     if (version == 4) content += std::string("name\0", 5);
     put(content, vertices);
     put(content, std::uint64_t(1));
@@ -283,6 +284,16 @@ TEST_CASE("scene meshes: serialized") {
         CHECK(second.face_normals);
         CHECK_THAT(refusal([&] { serialized(file, 2); }), Contains("shape_index 2"));
     }
+}
+
+// As in Mitsuba 3.9.1.
+TEST_CASE("scene meshes: a serialized file that names no precision is single") {
+    const SerializedMesh mesh =
+        serialized(serialized_file({serialized_mesh(1, 3, 0.25f, 2, 3, false)}, 3));
+    CHECK(mesh.mesh.positions[0] == glm::dvec3(0.25, 0, 0));
+    CHECK(mesh.mesh.normals[2] == glm::dvec3(0, 0, 1));
+    CHECK_THAT(refusal([&] { serialized(serialized_mesh(0x1000, 4, 0.1)); }),
+               Contains("both single and double"));
 }
 
 TEST_CASE("scene meshes: damaged serialized files") {

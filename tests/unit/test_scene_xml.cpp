@@ -132,7 +132,8 @@ TEST_CASE("scene xml: files outside the scene's folder need leave") {
     CHECK_THAT(refusal_of(folder.write("inner/scene.xml", scene_text("<path value=\"..\"/>"))),
                Contains("scene.xml:2") && Contains("--allow-outside"));
     CHECK_THAT(refusal_of(folder.write("inner/scene.xml", body("no.obj"))),
-               Contains("scene.xml:3") && Contains("\"no.obj\" not found"));
+               Contains("scene.xml:3") && Contains("\"no.obj\" not found (looked in: \"") &&
+                   Contains("inner\")"));
 }
 
 TEST_CASE("scene xml: document types and entities are refused") {
@@ -182,10 +183,8 @@ TEST_CASE("scene xml: what is no scene is refused with file and line") {
          "contain itself"},
         {scene_text(nested), "64 deep"},
         {scene_text("<texture type=\"bitmap\" id=\"a\"/>"), "texture plugin \"bitmap\""},
-        {scene_text("<sensor type=\"perspective\"/>"), "a second <sensor>"},
         {scene_text("<integrator type=\"path\"/>"), "a second <integrator>"},
         {scene_text("<emitter type=\"constant\"/>\n<emitter type=\"constant\"/>"), "scene.xml:3"},
-        {"<scene version=\"3.0.0\"><integrator type=\"path\"/></scene>", "no <sensor>"},
         {std::string("<scene version=\"3.0.0\">\n\0</scene>", 33), "scene.xml:2"},
     };
     for (const Case& c : cases) {

@@ -153,8 +153,9 @@ MeshHeader read_header(InflateStream& stream, std::uint16_t version, std::size_t
         } // the mesh's name
     header.vertices = stream.value<std::uint64_t>();
     header.triangles = stream.value<std::uint64_t>();
-    if (header.has(double_precision) == header.has(single_precision))
-        refuse(place, "the header must say single or double precision");
+    if (header.has(double_precision) && header.has(single_precision))
+        refuse(place, "the header says both single and double precision (accepted: one of them, or "
+                      "none, which is single)");
     if (header.bytes() > static_cast<double>(largest_ratio * compressed + always_accepted))
         refuse(place, "the mesh claims " + std::to_string(header.vertices) + " vertices and " +
                           std::to_string(header.triangles) + " triangles in " +

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -93,12 +95,22 @@ double read(parameter::SeparateIndex, Properties& p, std::string_view name, doub
     return eta;
 }
 
+/// Mitsuba's formulas square them: of measured metals some are a little below zero.
+Rgb read_magnitudes(Properties& p, std::string_view name, const Rgb& missing) {
+    const Rgb value = p.color(name, missing, SpectrumUse::unbounded);
+    const Rgb magnitude = glm::abs(value);
+    if (magnitude != value)
+        p.note(name, fmt::format("{} is negative; its magnitude is used, as in Mitsuba",
+                                 in_quotes(name)));
+    return magnitude;
+}
+
 parameter::ComplexIndex::Value read(parameter::ComplexIndex, Properties& p, std::string_view,
                                     parameter::ComplexIndex::Value index) {
     const bool spectra = p.has("eta") || p.has("k");
     if (!p.has("material")) {
-        index.eta = p.color("eta", index.eta, SpectrumUse::unbounded);
-        index.k = p.color("k", index.k, SpectrumUse::unbounded);
+        index.eta = read_magnitudes(p, "eta", index.eta);
+        index.k = read_magnitudes(p, "k", index.k);
         return index;
     }
     if (spectra)

@@ -2,6 +2,7 @@
 // given.
 #pragma once
 
+#include "host/problems.h"
 #include "host/scene/file_finder.h"
 #include "host/scene/load.h"
 #include "host/scene/mitsuba/spectrum.h"
@@ -18,12 +19,16 @@ namespace parhelion::mitsuba {
 
 class XmlFile;
 
+/// Of a value that could not be read, which has been said: readers take what a missing one is.
+struct Unread {};
+
 using Value = std::variant<bool, std::int64_t, double, std::string, glm::dvec3, RgbValue,
-                           SpectrumValue, glm::dmat4>;
+                           SpectrumValue, glm::dmat4, Unread>;
 
 struct Parameter {
-    std::string name; ///< snake_case, whatever the file's version
-    std::string tag;  ///< the element it was written as: "float", "rgb", ...
+    std::string name;     ///< snake_case, whatever the file's version
+    std::string spelling; ///< as the file has it
+    std::string tag;      ///< the element it was written as: "float", "rgb", ...
     SourceLocation location;
     Value value;
 };
@@ -49,11 +54,14 @@ struct Document {
     std::vector<Object> objects; ///< the scene itself first
     FileFinder files;
     std::vector<std::string> notes;
+    Problems problems{};         ///< of its syntax
+    bool own_integrator = false; ///< LoadOptions::own_integrator
 };
 
 /// Reads an XML scene with all its includes: parameters substituted, old versions upgraded,
-/// references resolved and free of cycles. Its folder is the one in the name of `xml`. Throws
-/// InputError.
+/// references resolved and free of cycles. Its folder is the one in the name of `xml`. What is
+/// wrong with one element is in `problems`; throws InputError, with those, where reading cannot go
+/// on.
 Document read_document(const XmlFile& xml, const LoadOptions& options);
 
 } // namespace parhelion::mitsuba

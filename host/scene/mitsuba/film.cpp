@@ -20,6 +20,7 @@ void read_crop(Properties& p, Film& film) {
     const int width = read("crop_width", film.width);
     const int height = read("crop_height", film.height);
     if (!any) return;
+    p.check();
     if (x + width > film.width || y + height > film.height)
         refuse(p.location(), fmt::format("{}: the crop window {}x{} at ({}, {}) leaves the film of "
                                          "{}x{}",
@@ -34,19 +35,28 @@ void read_formats(Properties& p, Film& film) {
     constexpr PixelFormat pixels[] = {PixelFormat::luminance, PixelFormat::luminance_alpha,
                                       PixelFormat::rgb,       PixelFormat::rgba,
                                       PixelFormat::xyz,       PixelFormat::xyza};
-    film.pixel_format = pixels[p.choice(
-        "pixel_format", "rgb", {"luminance", "luminance_alpha", "rgb", "rgba", "xyz", "xyza"})];
+    const std::size_t chosen = p.choice("pixel_format", "rgb",
+                                        {"luminance", "luminance_alpha", "rgb", "rgba", "xyz",
+                                         "xyza", "luminancealpha"}); // the last is of 0.x
+    film.pixel_format = chosen == 6 ? PixelFormat::luminance_alpha : pixels[chosen];
     constexpr ComponentFormat components[] = {ComponentFormat::float16, ComponentFormat::float32,
                                               ComponentFormat::uint32};
     film.component_format =
         components[p.choice("component_format", "float32", {"float16", "float32", "uint32"})];
-    p.choice("file_format", "openexr", {"openexr", "exr"});
 }
 
-Film read_hdr_film(Properties& p) {
+/// What no film of ours writes: the command line says where an image goes and as what.
+void note_file_format(Properties& p, std::initializer_list<std::string_view> accepted) {
+    if (!p.has("file_format") || p.choice("file_format", *accepted.begin(), accepted) < 2) return;
+    p.note("file_format", "\"file_format\" is not used: the name of --output chooses .exr or .png");
+}
+
+/// What all films have.
+Film read_any_film(Properties& p) {
     Film film;
     film.width = static_cast<int>(p.integer("width", 768));
     film.height = static_cast<int>(p.integer("height", 576));
+    p.check();
     if (std::int64_t(film.width) * film.height > most_film_pixels)
         p.refuse_value("width", fmt::format("{} with a height of {}", film.width, film.height),
                        fmt::format("{} pixels in all", most_film_pixels));
@@ -61,8 +71,44 @@ Film read_hdr_film(Properties& p) {
     return film;
 }
 
+Film read_hdr_film(Properties& p) {
+    note_file_format(p, {"openexr", "exr", "rgbe", "pfm"});
+    // Of 0.x: whether the header holds what the program said.
+    p.boolean("attach_log", true);
+    return read_any_film(p);
+}
+
+/// Of Mitsuba 0.x, whose picture is that of hdrfilm, tone mapped.
+Film read_ldr_film(Properties& p) {
+    note_file_format(p, {"openexr", "exr", "png", "jpeg", "jpg"});
+    p.choice("tonemap_method", "gamma", {"gamma", "reinhard"});
+    for (const char* const name : {"gamma", "exposure", "key", "burn"})
+        p.number(name, 0.0);
+    p.note("", "film \"ldrfilm\" is read as \"hdrfilm\": the image is linear, and its tone mapping "
+               "is left to viewers");
+    return read_any_film(p);
+}
+
+/// Of Mitsuba 0.x, which writes numbers for other programs.
+Film read_m_film(Properties& p) {
+    note_file_format(p, {"openexr", "exr", "matlab", "mathematica", "numpy"});
+    p.integer("digits", 4);
+    p.text("variable", "data");
+    p.note("", "film \"mfilm\" is read as \"hdrfilm\"");
+    return read_any_film(p);
+}
+
+/// Of Mitsuba 0.x: for images that do not fit into its memory.
+Film read_tiled_film(Properties& p) {
+    p.note("", "film \"tiledhdrfilm\" is read as \"hdrfilm\"");
+    return read_hdr_film(p);
+}
+
 using FilmReader = Film (*)(Properties&);
-constexpr PluginTable<FilmReader, 1> film_plugins = {{{"hdrfilm", read_hdr_film}}};
+constexpr PluginTable<FilmReader, 4> film_plugins = {{{"hdrfilm", read_hdr_film},
+                                                      {"ldrfilm", read_ldr_film},
+                                                      {"mfilm", read_m_film},
+                                                      {"tiledhdrfilm", read_tiled_film}}};
 
 ReconstructionFilter read_box(Properties&) { return {.kind = FilterKind::box}; }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace parhelion::mitsuba {
 
 namespace {
@@ -125,9 +127,34 @@ using IntegratorReader = Integrator (*)(const IntegratorInput&);
 constexpr PluginTable<IntegratorReader, 6> integrator_plugins = {
     {INTEGRATORS(PLUGIN){"moment", read_moment}}};
 
+bool is_known(const Object& object) {
+    return std::any_of(integrator_plugins.begin(), integrator_plugins.end(),
+                       [&](const auto& entry) { return entry.name == object.plugin; });
+}
+
+/// Of another program's, where the caller brings an integrator: what `path` has too.
+Integrator read_foreign(const Document& document, const Object& object, Notes& notes) {
+    Object path{"integrator", "path", object.id, object.location, {}, {}};
+    std::string left_out;
+    for (const Parameter& parameter : object.parameters)
+        if (parameter.name == "max_depth" || parameter.name == "rr_depth" ||
+            parameter.name == "hide_emitters")
+            path.parameters.push_back(parameter);
+        else
+            left_out += (left_out.empty() ? "; left out: " : ", ") + parameter.spelling;
+    notes.push_back(fmt::format("{}: integrator plugin {} is not known, --integrator takes its "
+                                "place{}",
+                                object.location.to_string(), in_quotes(object.plugin), left_out));
+    Properties p(document, path, notes);
+    Integrator integrator = read_path({p, document, notes});
+    p.finish();
+    return integrator;
+}
+
 } // namespace
 
 Integrator read_integrator(const Document& document, const Object& object, Notes& notes) {
+    if (document.own_integrator && !is_known(object)) return read_foreign(document, object, notes);
     Properties p(document, object, notes);
     const IntegratorReader read = find_plugin(integrator_plugins, object);
     const Integrator integrator = read({p, document, notes});

@@ -25,7 +25,8 @@ constexpr Domain count = whole_number(0, largest_int);
 constexpr Domain radiometric = between(0, 3.4e38);
 /// Optics ends at about 10; the squares of more are still far from the end of single precision.
 constexpr Domain refractive_index = between(0.01, 100);
-constexpr Domain complex_index = between(0, 1e6);
+/// Those of metals: their formulas know the magnitudes alone.
+constexpr Domain complex_index = between(-1e6, 1e6);
 /// Less is smooth to single precision: densities of normals are its fourth power. For more, energy
 /// compensation is off by more than 0.3 %, of a metal or of glass.
 constexpr Domain metal_roughness = between(1e-9, 4).nearest_from(0);
@@ -42,7 +43,9 @@ constexpr Domain wavelength = between(1e-3, 1e9).in("nanometres");
 
 constexpr std::string_view power = "a power that single precision holds in the scene's unit";
 constexpr const char* cameras = "perspective thinlens";
-constexpr const char* samplers = "independent stratified multijitter orthogonal ldsampler";
+constexpr const char* samplers = "independent stratified multijitter orthogonal ldsampler "
+                                 "sobol halton hammersley";
+constexpr const char* films = "hdrfilm ldrfilm mfilm tiledhdrfilm";
 
 // What numbers a parameter of a material is in files (host/scene/parameter.h).
 
@@ -113,8 +116,8 @@ const NumberParameter other_parameters[] = {
     {"shape", "sphere", "radius", real, size},
     {"shape", "sphere", "center", vector, coordinate},
     {"shape", "serialized", "shape_index", whole, count},
-    {"shape", "obj ply serialized rectangle cube sphere disk", "silhouette_sampling_weight", real,
-     any_number()},
+    {"shape", "obj ply serialized rectangle cube sphere disk",
+     "silhouette_sampling_weight", real, any_number()},
 
     {"sensor", cameras, "fov", real, field_of_view},
     {"sensor", cameras, "focal_length", text, between(1e-6, 1e12).in("millimetres")},
@@ -127,12 +130,17 @@ const NumberParameter other_parameters[] = {
     {"sensor", "perspective", "principal_point_offset_y", real, between(-1000, 1000)},
     {"sensor", "thinlens", "aperture_radius", real, between(0, 1e20)},
 
-    {"film", "hdrfilm", "width", whole, film_side_domain, "width times height: up to 2^28"},
-    {"film", "hdrfilm", "height", whole, film_side_domain, "width times height: up to 2^28"},
-    {"film", "hdrfilm", "crop_offset_x", whole, crop_offset_domain, "inside the film"},
-    {"film", "hdrfilm", "crop_offset_y", whole, crop_offset_domain, "inside the film"},
-    {"film", "hdrfilm", "crop_width", whole, film_side_domain, "inside the film"},
-    {"film", "hdrfilm", "crop_height", whole, film_side_domain, "inside the film"},
+    {"film", films, "width", whole, film_side_domain, "width times height: up to 2^28"},
+    {"film", films, "height", whole, film_side_domain, "width times height: up to 2^28"},
+    {"film", films, "crop_offset_x", whole, crop_offset_domain, "inside the film"},
+    {"film", films, "crop_offset_y", whole, crop_offset_domain, "inside the film"},
+    {"film", films, "crop_width", whole, film_side_domain, "inside the film"},
+    {"film", films, "crop_height", whole, film_side_domain, "inside the film"},
+    {"film", "ldrfilm", "gamma", real, any_number()},
+    {"film", "ldrfilm", "exposure", real, any_number()},
+    {"film", "ldrfilm", "key", real, any_number()},
+    {"film", "ldrfilm", "burn", real, any_number()},
+    {"film", "mfilm", "digits", whole, count},
 
     {"rfilter", "tent", "radius", real, between(1e-6, 16).in("pixels")},
     {"rfilter", "gaussian", "stddev", real, between(1e-6, 4).in("pixels")},
@@ -142,6 +150,8 @@ const NumberParameter other_parameters[] = {
 
     {"sampler", samplers, "sample_count", whole, samples_per_pixel_domain},
     {"sampler", samplers, "seed", whole, seed_domain},
+    {"sampler", samplers, "dimension", whole, count},
+    {"sampler", "sobol halton hammersley", "scramble", whole, whole_number(-1, largest_int)},
     {"sampler", "orthogonal", "strength", whole, whole_number(0, 64)},
 
     {"integrator", "path", "max_depth", whole, max_depth_domain},
@@ -150,10 +160,15 @@ const NumberParameter other_parameters[] = {
     {"integrator", "direct", "emitter_samples", whole, count, "not 0 with bsdf_samples"},
     {"integrator", "direct", "bsdf_samples", whole, count, "not 0 with emitter_samples"},
     {"integrator", "path direct depth aov moment", "block_size", whole, count},
-    {"integrator", "path direct depth aov moment", "samples_per_pass", whole, count},
+    {"integrator", "path direct depth aov moment", "samples_per_pass", whole,
+     whole_number(0, std::numeric_limits<std::uint32_t>::max())},
     {"integrator", "path direct depth aov moment", "timeout", real,
      Domain{.highest = 0.0}.in("seconds"), "pictures do not depend on the time they take"},
 
+    {"spectrum", "d65", "scale", real, radiometric, power},
+    {"spectrum", "d65 srgb", "color", color, radiometric, power},
+    {"spectrum", "uniform", "value", real, radiometric, power},
+    {"spectrum", "blackbody", "temperature", real, between(1, 1e9).in("kelvins")},
     {"spectrum", "value filename", "wavelength", step, wavelength, "increasing"},
 
     {"transform", "translate", "x, y, z", step, coordinate},

@@ -30,12 +30,16 @@ Emitter read_emitter(const Document& document, const Object& object, Notes& note
 Rgb read_area_emitter(const Document& document, const Object& object, Notes& notes);
 
 /// The geometry of a shape; its bsdf and emitter are left to the caller.
+Geometry read_shape(const Document& document, const Object& object, Notes& notes);
+
+/// The first of each inside a shape, or null; read_shape refuses a second one.
 struct ShapeParts {
-    Geometry geometry;
     const Object* bsdf = nullptr;
     const Object* emitter = nullptr;
 };
-ShapeParts read_shape(const Document& document, const Object& object, Notes& notes);
+ShapeParts shape_parts(const Document& document, const Object& object);
+
+inline constexpr int default_samples = 4; ///< a pixel, as in Mitsuba
 
 struct SensorParts {
     Camera camera;

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace parhelion::mitsuba {
 
@@ -46,6 +45,11 @@ bool Properties::has(std::string_view name) {
     return find(name) != nullptr;
 }
 
+void Properties::knows(std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names)
+        has(name);
+}
+
 const SourceLocation& Properties::location_of(std::string_view name) const {
     const Parameter* const parameter = find(name);
     return parameter ? parameter->location : object_.location;
@@ -60,13 +64,34 @@ const Parameter* Properties::take(std::string_view name) {
                    fmt::format("{}: parameter {} is given as <{} type={}>, which is not supported",
                                title(), in_quotes(name), target(child).tag,
                                in_quotes(target(child).plugin)));
-    return find(name);
+    const Parameter* const parameter = find(name);
+    return parameter && std::holds_alternative<Unread>(parameter->value) ? nullptr : parameter;
+}
+
+std::string Properties::spelling(std::string_view name) const {
+    const Parameter* const parameter = find(name);
+    return in_quotes(parameter ? parameter->spelling : name);
+}
+
+std::string Properties::value_message(std::string_view name, const std::string& found,
+                                      const std::string& accepted) const {
+    return fmt::format("{}: parameter {} is {} (accepted: {})", title(), spelling(name), found,
+                       accepted);
+}
+
+void Properties::refuse_at(const SourceLocation& place, const std::string& message) const {
+    check(); // it may follow from what is wrong already
+    refuse(place, message);
 }
 
 void Properties::refuse_value(std::string_view name, const std::string& found,
                               const std::string& accepted) const {
-    refuse(location_of(name), fmt::format("{}: parameter {} is {} (accepted: {})", title(),
-                                          in_quotes(name), found, accepted));
+    refuse_at(location_of(name), value_message(name, found, accepted));
+}
+
+void Properties::keep(std::string_view name, const std::string& found,
+                      const std::string& accepted) {
+    problems_.attempt([&] { refuse(location_of(name), value_message(name, found, accepted)); });
 }
 
 template<typename T>
@@ -74,7 +99,7 @@ const T* Properties::take_as(std::string_view name, const char* accepted) {
     const Parameter* const parameter = take(name);
     if (!parameter) return nullptr;
     const T* const value = std::get_if<T>(&parameter->value);
-    if (!value) refuse_value(name, "given as <" + parameter->tag + ">", accepted);
+    if (!value) keep(name, "given as <" + parameter->tag + ">", accepted);
     return value;
 }
 
@@ -84,7 +109,8 @@ const Domain& Properties::domain(std::string_view name) const {
 
 double Properties::checked(std::string_view name, double value) {
     const std::optional<double> taken = placed(domain(name), value);
-    if (!taken) refuse_value(name, fmt::format("{}", value), accepted_text(domain(name)));
+    if (!taken) keep(name, fmt::format("{}", value), accepted_text(domain(name)));
+    if (!taken) return value;
     if (*taken != value)
         note(name, fmt::format("{} is {} and taken as {}", in_quotes(name), value, *taken));
     return *taken;
@@ -96,13 +122,14 @@ double Properties::number(std::string_view name, double missing) {
     if (const auto* real = std::get_if<double>(&parameter->value)) return checked(name, *real);
     if (const auto* whole = std::get_if<std::int64_t>(&parameter->value))
         return checked(name, static_cast<double>(*whole));
-    refuse_value(name, "given as <" + parameter->tag + ">", "<float>");
+    keep(name, "given as <" + parameter->tag + ">", "<float>");
+    return missing;
 }
 
 double Properties::required_number(std::string_view name) {
     if (!has(name))
-        refuse(location(), fmt::format("{} lacks its parameter {} (accepted: <float>, {})", title(),
-                                       in_quotes(name), accepted_text(domain(name))));
+        refuse_at(location(), fmt::format("{} lacks its parameter {} (accepted: <float>, {})",
+                                          title(), in_quotes(name), accepted_text(domain(name))));
     return number(name, 0.0);
 }
 
@@ -124,8 +151,8 @@ std::string Properties::text(std::string_view name, std::string_view missing) {
 
 std::string Properties::required_text(std::string_view name) {
     if (!has(name))
-        refuse(location(),
-               fmt::format("{} lacks its parameter {} (<string>)", title(), in_quotes(name)));
+        refuse_at(location(),
+                  fmt::format("{} lacks its parameter {} (<string>)", title(), in_quotes(name)));
     return text(name, "");
 }
 
@@ -137,7 +164,8 @@ std::size_t Properties::choice(std::string_view name, std::string_view missing,
         std::string list;
         for (const std::string_view item : accepted)
             list += (list.empty() ? "" : ", ") + std::string(item);
-        refuse_value(name, in_quotes(value), list);
+        keep(name, in_quotes(value), list);
+        return 0;
     }
     return static_cast<std::size_t>(found - accepted.begin());
 }
@@ -171,8 +199,10 @@ Rgb Properties::color(std::string_view name, const Rgb& missing, SpectrumUse use
                 checked(name, converted.color.b)};
     }
     if (!std::holds_alternative<double>(parameter->value) &&
-        !std::holds_alternative<std::int64_t>(parameter->value))
-        refuse_value(name, "given as <" + parameter->tag + ">", "<rgb>, <spectrum>, <float>");
+        !std::holds_alternative<std::int64_t>(parameter->value)) {
+        keep(name, "given as <" + parameter->tag + ">", "<rgb>, <spectrum>, <float>");
+        return missing;
+    }
     return Rgb(number(name, 0.0));
 }
 
@@ -187,7 +217,7 @@ std::vector<const Child*> Properties::children(std::string_view tag) {
 const Object* Properties::only_child(std::string_view tag) {
     const std::vector<const Child*> found = children(tag);
     if (found.size() > 1)
-        refuse(found[1]->location, fmt::format("{} has more than one <{}>", title(), tag));
+        refuse_at(found[1]->location, fmt::format("{} has more than one <{}>", title(), tag));
     return found.empty() ? nullptr : &target(*found[0]);
 }
 
@@ -195,17 +225,23 @@ void Properties::note(std::string_view about, const std::string& message) {
     notes_.push_back(location_of(about).to_string() + ": " + message);
 }
 
-void Properties::finish() const {
+void Properties::finish() {
     for (const Parameter& parameter : object_.parameters)
         if (!contains(asked_, parameter.name))
-            refuse(parameter.location, fmt::format("{} has no parameter {} (accepted: {})", title(),
-                                                   in_quotes(parameter.name), joined(known_)));
+            problems_.attempt([&] {
+                refuse(parameter.location,
+                       fmt::format("{} has no parameter {} (accepted: {})", title(),
+                                   in_quotes(parameter.spelling), joined(known_)));
+            });
     for (const Child& child : object_.children)
         if (!contains(asked_tags_, target(child).tag))
-            refuse(child.location,
-                   fmt::format("{} cannot hold the {} plugin {} (accepted: {})", title(),
-                               target(child).tag, in_quotes(target(child).plugin),
-                               joined(asked_tags_)));
+            problems_.attempt([&] {
+                refuse(child.location,
+                       fmt::format("{} cannot hold the {} plugin {} (accepted: {})", title(),
+                                   target(child).tag, in_quotes(target(child).plugin),
+                                   joined(asked_tags_)));
+            });
+    problems_.throw_if_any();
 }
 
 } // namespace parhelion::mitsuba

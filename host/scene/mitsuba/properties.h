@@ -12,9 +12,10 @@
 
 namespace parhelion::mitsuba {
 
-/// Every query takes its parameter; `finish` refuses those that are left. All throw InputError with
-/// the parameter's own line. Numbers lie in the domain that number_parameters.h has for them, or
-/// are refused, or mapped with a note.
+/// Every query takes its parameter; `finish` refuses those that are left. What is wrong with a
+/// value is kept, so that the others are looked at too, and thrown by `finish` or what throws
+/// before: an InputError, a line for each, with the parameter's own line and spelling. Numbers lie
+/// in the domain that number_parameters.h has for them, or are refused, or mapped with a note.
 class Properties {
 public:
     Properties(const Document& document, const Object& object, std::vector<std::string>& notes);
@@ -23,6 +24,8 @@ public:
     const SourceLocation& location() const { return object_.location; }
 
     bool has(std::string_view name);
+    /// Names that the plugin has and the reader may not come to.
+    void knows(std::initializer_list<std::string_view> names);
     /// The line of a parameter that is there, else of the plugin.
     const SourceLocation& location_of(std::string_view name) const;
 
@@ -55,9 +58,17 @@ public:
     /// "bsdf plugin "diffuse""
     std::string title() const;
 
-    void finish() const;
+    /// Throws what has been kept, before something is made of values that are wrong.
+    void check() const { problems_.throw_if_any(); }
+    void finish();
 
 private:
+    std::string value_message(std::string_view name, const std::string& found,
+                              const std::string& accepted) const;
+    /// Keeps what `refuse_value` would throw.
+    void keep(std::string_view name, const std::string& found, const std::string& accepted);
+    [[noreturn]] void refuse_at(const SourceLocation& place, const std::string& message) const;
+    std::string spelling(std::string_view name) const;
     const Parameter* take(std::string_view name);
     const Parameter* find(std::string_view name) const;
     const Domain& domain(std::string_view name) const;
@@ -67,6 +78,7 @@ private:
     const Document& document_;
     const Object& object_;
     std::vector<std::string>& notes_;
+    Problems problems_;
     std::vector<std::string> asked_;      ///< names of parameters that were read
     std::vector<std::string> known_;      ///< and of those that could have been
     std::vector<std::string> asked_tags_; ///< kinds of children

@@ -10,15 +10,18 @@ namespace {
 constexpr std::size_t max_nesting = 64;
 
 void resolve(Document& document, const IdTable& ids) {
-    for (Object& object : document.objects)
-        for (Child& child : object.children) {
-            if (child.reference.empty()) continue;
+    const auto leads_nowhere = [&](Child& child) {
+        if (child.reference.empty()) return false;
+        return !document.problems.attempt([&] {
             const auto target = ids.find(child.reference);
             if (target == ids.end())
                 refuse(child.location,
                        "<ref>: there is no object with the id " + in_quotes(child.reference));
             child.object = target->second;
-        }
+        });
+    };
+    for (Object& object : document.objects)
+        std::erase_if(object.children, leads_nowhere);
 }
 
 /// Depth first, without recursion; chains of references are kept short, because the readers of

@@ -3,6 +3,7 @@
 
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
+#include "host/scene/mitsuba/sensor_choice.h"
 #include "host/scene/mitsuba/xml_file.h"
 #include "host/scene/text.h"
 
@@ -16,8 +17,10 @@ namespace {
 
 class SceneBuilder {
 public:
-    explicit SceneBuilder(Document document) : document_(std::move(document)) {
+    SceneBuilder(Document document, const LoadOptions& options)
+        : document_(std::move(document)), wanted_sensor_(options.sensor) {
         scene_.notes = std::move(document_.notes);
+        problems_ = std::move(document_.problems);
     }
 
     Scene build(const std::string& file);
@@ -27,7 +30,7 @@ private:
     void check_definition(const Child& child, const Object& object);
     void add_shape(const Object& object);
     void add_emitter(const Object& object);
-    void set_sensor(const Child& child);
+    void set_sensor(const std::string& file);
     void set_integrator(const Child& child);
     SurfaceMaterials materials_of(const Object& object);
     SurfaceMaterials default_material(bool emits);
@@ -36,7 +39,10 @@ private:
     Scene scene_;
     std::map<const Object*, SurfaceMaterials> materials_; ///< by the bsdf that asked for them
     std::map<bool, SurfaceMaterials> default_materials_;
-    std::optional<SourceLocation> sensor_, integrator_, background_;
+    std::vector<const Child*> sensors_;
+    std::optional<int> wanted_sensor_;
+    std::optional<SourceLocation> integrator_, background_;
+    Problems problems_;
 };
 
 SurfaceMaterials SceneBuilder::materials_of(const Object& object) {
@@ -56,14 +62,20 @@ SurfaceMaterials SceneBuilder::default_material(bool emits) {
 }
 
 void SceneBuilder::add_shape(const Object& object) {
-    ShapeParts parts = read_shape(document_, object, scene_.notes);
-    Shape shape{object.id, object.plugin, object.location, std::move(parts.geometry), {}, {}, {}};
+    Shape shape{object.id, object.plugin, object.location, {}, {}, {}, {}};
     if (shape.id.empty()) shape.id = "shape " + std::to_string(scene_.shapes.size() + 1);
-    if (parts.emitter) shape.radiance = read_area_emitter(document_, *parts.emitter, scene_.notes);
-    const SurfaceMaterials materials =
-        parts.bsdf ? materials_of(*parts.bsdf) : default_material(parts.emitter != nullptr);
-    shape.material_front = materials.front;
-    shape.material_back = materials.back;
+    ShapeParts parts = shape_parts(document_, object);
+    problems_.attempt([&] { shape.geometry = read_shape(document_, object, scene_.notes); });
+    problems_.attempt([&] {
+        if (parts.emitter)
+            shape.radiance = read_area_emitter(document_, *parts.emitter, scene_.notes);
+    });
+    problems_.attempt([&] {
+        const SurfaceMaterials materials =
+            parts.bsdf ? materials_of(*parts.bsdf) : default_material(parts.emitter != nullptr);
+        shape.material_front = materials.front;
+        shape.material_back = materials.back;
+    });
     scene_.shapes.push_back(std::move(shape));
 }
 
@@ -89,9 +101,18 @@ void refuse_second(std::optional<SourceLocation>& first, const Child& child, con
     first = child.location;
 }
 
-void SceneBuilder::set_sensor(const Child& child) {
-    refuse_second(sensor_, child, "sensor");
-    SensorParts parts = read_sensor(document_, document_.objects[child.object], scene_.notes);
+/// What --sensor chooses, or the first; without any in the file a view of all shapes.
+void SceneBuilder::set_sensor(const std::string& file) {
+    scene_.sensors = sensor_names(document_, sensors_);
+    const std::size_t index = chosen_sensor(scene_.sensors, wanted_sensor_, file, scene_.notes);
+    if (sensors_.empty()) {
+        scene_.camera = default_view(scene_.shapes);
+        scene_.film.pixel_format = PixelFormat::rgb;
+        scene_.sampler.samples_per_pixel = default_samples;
+        return;
+    }
+    SensorParts parts =
+        read_sensor(document_, document_.objects[sensors_[index]->object], scene_.notes);
     scene_.camera = parts.camera;
     scene_.film = parts.film;
     scene_.sampler = std::move(parts.sampler);
@@ -109,7 +130,7 @@ void SceneBuilder::add(const Child& child) {
     else if (object.tag == "emitter")
         add_emitter(object);
     else if (object.tag == "sensor")
-        set_sensor(child);
+        sensors_.push_back(&child);
     else if (object.tag == "integrator")
         set_integrator(child);
     else
@@ -156,10 +177,13 @@ Scene SceneBuilder::build(const std::string& file) {
     scene_.file = file;
     const Object& root = document_.objects.front();
     for (const Child& child : root.children)
-        add(child);
+        problems_.attempt([&] { add(child); });
     for (const Parameter& parameter : root.parameters)
-        refuse(parameter.location, "<scene> has no parameter " + in_quotes(parameter.name));
-    if (!sensor_) refuse({file, 0}, "the scene has no <sensor>");
+        problems_.attempt([&] {
+            refuse(parameter.location, "<scene> has no parameter " + in_quotes(parameter.spelling));
+        });
+    problems_.attempt([&] { set_sensor(file); });
+    problems_.throw_if_any();
     refuse_only_empty(scene_);
     if (!integrator_)
         scene_.notes.push_back(file + ": the scene has no <integrator>; \"path\" is used");
@@ -177,7 +201,7 @@ Scene load_xml_scene(const std::string& file, const LoadOptions& options) {
 }
 
 Scene parse_xml_scene(const XmlFile& xml, const LoadOptions& options) {
-    return SceneBuilder(read_document(xml, options)).build(xml.name());
+    return SceneBuilder(read_document(xml, options), options).build(xml.name());
 }
 
 } // namespace parhelion::mitsuba

@@ -39,6 +39,7 @@ double read_focal_length(Properties& p) {
 }
 
 void read_field_of_view(Properties& p, Camera& camera) {
+    p.knows({"focal_length", "fov_axis"});
     if (!p.has("fov")) {
         camera.focal_length_mm = read_focal_length(p);
         return;
@@ -51,10 +52,8 @@ void read_field_of_view(Properties& p, Camera& camera) {
     camera.fov_axis = axes[p.choice("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"})];
 }
 
-Camera read_projective(Properties& p) {
-    Camera camera;
-    camera.to_world = read_camera_to_world(p);
-    read_field_of_view(p, camera);
+/// Near and far plane, and what does not change the picture.
+void read_depths(Properties& p, Camera& camera) {
     camera.near_clip = p.number("near_clip", 1e-2);
     camera.far_clip = p.number("far_clip", 1e4);
     if (!(camera.near_clip < camera.far_clip))
@@ -65,6 +64,13 @@ Camera read_projective(Properties& p) {
     const double open = p.number("shutter_open", 0.0);
     if (p.number("shutter_close", 0.0) < open)
         p.refuse_value("shutter_close", "before \"shutter_open\"", "not before it");
+}
+
+Camera read_projective(Properties& p) {
+    Camera camera;
+    camera.to_world = read_camera_to_world(p);
+    read_field_of_view(p, camera);
+    read_depths(p, camera);
     return camera;
 }
 
@@ -101,15 +107,19 @@ void read_orthogonal(Properties& p) {
     p.integer("strength", 2);
 }
 
+/// Of Mitsuba 0.x.
+void read_scramble(Properties& p) { p.integer("scramble", 0); }
+
 using SamplerReader = void (*)(Properties&);
 
-constexpr PluginTable<SamplerReader, 5> sampler_plugins = {{{"independent", read_nothing},
+constexpr PluginTable<SamplerReader, 8> sampler_plugins = {{{"independent", read_nothing},
                                                             {"stratified", read_jitter},
                                                             {"multijitter", read_jitter},
                                                             {"orthogonal", read_orthogonal},
-                                                            {"ldsampler", read_nothing}}};
-
-constexpr int default_samples = 4; ///< Mitsuba's
+                                                            {"ldsampler", read_nothing},
+                                                            {"sobol", read_scramble},
+                                                            {"halton", read_scramble},
+                                                            {"hammersley", read_scramble}}};
 
 } // namespace
 
@@ -121,6 +131,7 @@ Sampler read_sampler(const Document& document, const Object& object, Notes& note
     sampler.plugin = object.plugin;
     sampler.samples_per_pixel = static_cast<int>(p.integer("sample_count", default_samples));
     sampler.seed = static_cast<std::uint32_t>(p.integer("seed", 0));
+    p.integer("dimension", 4); // of 0.x: up to where its points are well spread
     if (object.plugin != "independent")
         p.note("", "sampler " + in_quotes(object.plugin) +
                        " does not choose the pattern of the samples, --sampler does; only the "
@@ -145,14 +156,22 @@ SensorParts read_sensor(const Document& document, const Object& object, Notes& n
     Properties p(document, object, notes);
     const SensorReader read = find_plugin(sensor_plugins, object);
     SensorParts parts;
-    parts.camera = read(p);
     const Object* const film = p.only_child("film");
     const Object* const sampler = p.only_child("sampler");
-    p.finish();
     parts.film.pixel_format = PixelFormat::rgb;
     parts.sampler.samples_per_pixel = default_samples;
-    if (film) parts.film = read_film(document, *film, notes);
-    if (sampler) parts.sampler = read_sampler(document, *sampler, notes);
+    Problems problems;
+    problems.attempt([&] {
+        parts.camera = read(p);
+        p.finish();
+    });
+    problems.attempt([&] {
+        if (film) parts.film = read_film(document, *film, notes);
+    });
+    problems.attempt([&] {
+        if (sampler) parts.sampler = read_sampler(document, *sampler, notes);
+    });
+    problems.throw_if_any();
     note_narrow_pixels(p, parts.camera, parts.film);
     return parts;
 }

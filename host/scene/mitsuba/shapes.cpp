@@ -44,6 +44,7 @@ Geometry read_mesh(const ShapeInput& in, MeshData data, const MeshOptions& optio
 
 std::filesystem::path read_filename(const ShapeInput& in) {
     const std::string name = in.p.required_text("filename");
+    in.p.check();
     return in.document.files.file(name, in.p.location_of("filename"));
 }
 
@@ -123,6 +124,7 @@ Geometry read_sphere(const ShapeInput& in) {
     Sphere sphere;
     sphere.center = glm::dvec3(to_world * glm::dvec4(in.p.vector("center", glm::dvec3(0.0)), 1.0));
     sphere.radius = scale * in.p.number("radius", 1.0);
+    in.p.check();
     if (!(sphere.radius > 0.0) || !std::isfinite(sphere.radius) ||
         !std::isfinite(glm::dot(sphere.center, glm::dvec3(1.0))))
         refuse(in.p.location(), in.p.title() + ": to_world takes it out of the range of numbers");
@@ -154,16 +156,25 @@ constexpr PluginTable<ShapeReader, 7> shape_plugins = {{{"obj", read_obj},
 
 } // namespace
 
-ShapeParts read_shape(const Document& document, const Object& object, Notes& notes) {
+ShapeParts shape_parts(const Document& document, const Object& object) {
+    ShapeParts parts;
+    for (const Child& child : object.children) {
+        const Object& inner = document.objects[child.object];
+        if (inner.tag == "bsdf" && !parts.bsdf) parts.bsdf = &inner;
+        if (inner.tag == "emitter" && !parts.emitter) parts.emitter = &inner;
+    }
+    return parts;
+}
+
+Geometry read_shape(const Document& document, const Object& object, Notes& notes) {
     Properties p(document, object, notes);
     const ShapeReader read = find_plugin(shape_plugins, object);
-    ShapeParts parts;
-    parts.bsdf = p.only_child("bsdf");
-    parts.emitter = p.only_child("emitter");
-    parts.geometry = read({p, document, notes});
+    p.only_child("bsdf");
+    p.only_child("emitter");
+    Geometry geometry = read({p, document, notes});
     p.number("silhouette_sampling_weight", 1.0); // of Mitsuba's derivatives, no part of a picture
     p.finish();
-    return parts;
+    return geometry;
 }
 
 } // namespace parhelion::mitsuba

@@ -27,9 +27,8 @@ double number_or_refuse(std::string_view text, const char* what, const SourceLoc
     return *value;
 }
 
-/// IEC 61966-2-1 decoding of one byte.
-double srgb_decode(int byte) {
-    const double v = byte / 255.0;
+/// IEC 61966-2-1 decoding.
+double srgb_decode(double v) {
     return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
@@ -43,7 +42,7 @@ Rgb parse_hex_color(std::string_view digits, const SourceLocation& place) {
     if (digits.size() != 6) nibble('?');
     Rgb color;
     for (int i = 0; i < 3; ++i)
-        color[i] = srgb_decode(16 * nibble(digits[2 * i]) + nibble(digits[2 * i + 1]));
+        color[i] = srgb_decode((16 * nibble(digits[2 * i]) + nibble(digits[2 * i + 1])) / 255.0);
     return color;
 }
 
@@ -112,6 +111,28 @@ RgbValue parse_rgb(std::string_view text, const SourceLocation& place) {
     return {color};
 }
 
+RgbValue parse_srgb(std::string_view text, const SourceLocation& place) {
+    RgbValue value = parse_rgb(text, place);
+    if (text.find('#') != std::string_view::npos) return value;
+    for (int i = 0; i < 3; ++i)
+        value.color[i] = srgb_decode(value.color[i]);
+    return value;
+}
+
+SpectrumValue blackbody(double kelvins) {
+    constexpr double light_speed = 299792458.0, planck = 6.62607015e-34, boltzmann = 1.380649e-23;
+    SpectrumValue result;
+    for (double nm = cie_first_nm; nm <= cie_last_nm; nm += 1.0) {
+        const double metres = nm * 1e-9;
+        const double quantum = planck * light_speed / (metres * boltzmann * kelvins);
+        const double per_metre =
+            2.0 * planck * light_speed * light_speed / std::pow(metres, 5.0) / std::expm1(quantum);
+        result.wavelengths.push_back(nm);
+        result.values.push_back(per_metre * 1e-9);
+    }
+    return result;
+}
+
 SpectrumValue parse_spectrum(std::string_view text, const SourceLocation& place) {
     const std::vector<std::string_view> parts = split(text, separators);
     if (parts.empty()) refuse(place, "<spectrum> holds no value");
@@ -123,7 +144,9 @@ SpectrumValue parse_spectrum(std::string_view text, const SourceLocation& place)
     for (const std::string_view part : parts) {
         const std::size_t colon = part.find(':');
         if (colon == std::string_view::npos)
-            refuse(place, "spectrum value " + in_quotes(part) + " is not a wavelength:value pair");
+            refuse(place, "spectrum value " + in_quotes(part) +
+                              " is not a wavelength:value pair (accepted: one value, or pairs; a "
+                              "colour of three values is an <rgb>)");
         result.wavelengths.push_back(number_or_refuse(part.substr(0, colon), "wavelength", place));
         result.values.push_back(number_or_refuse(part.substr(colon + 1), "spectrum value", place));
     }

@@ -34,6 +34,13 @@ struct ConvertedSpectrum {
 /// Reads "1", "1 0.5 0.2" or "#rrggbb" (sRGB-encoded bytes). Throws InputError at `place`.
 RgbValue parse_rgb(std::string_view text, const SourceLocation& place);
 
+/// The same with numbers that are sRGB-encoded as well, as <srgb> of Mitsuba 0.x has them. Throws
+/// InputError at `place`.
+RgbValue parse_srgb(std::string_view text, const SourceLocation& place);
+
+/// Radiance of a black body at `kelvins` by Planck's law, in W/(m^2 sr nm).
+SpectrumValue blackbody(double kelvins);
+
 /// Reads "0.5" or "400:0.1, 500:0.7, ...". Throws InputError at `place`.
 SpectrumValue parse_spectrum(std::string_view text, const SourceLocation& place);
 

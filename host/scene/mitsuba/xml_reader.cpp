@@ -1,7 +1,9 @@
 // From XML files to a Document: every kind of element, includes, references and old versions.
 #include "host/scene/mitsuba/document.h"
 #include "host/scene/mitsuba/references.h"
+#include "host/scene/mitsuba/spectrum_plugins.h"
 #include "host/scene/mitsuba/substitution.h"
+#include "host/scene/mitsuba/versions.h"
 #include "host/scene/mitsuba/xml_file.h"
 #include "host/scene/mitsuba/xml_values.h"
 #include "host/scene/text.h"
@@ -17,55 +19,31 @@ namespace {
 constexpr int max_include_depth = 15;
 constexpr int max_includes = 1000;
 constexpr int max_nesting = 64;
-constexpr int newest_version = 3; ///< of the format that this reader follows
 constexpr std::array<std::string_view, 14> object_tags = {
     "scene", "bsdf",    "emitter", "field",  "film",  "integrator", "medium",
     "phase", "rfilter", "sampler", "sensor", "shape", "texture",    "volume"};
 
-/// Numbers "1.2" or "1.2.3", as in the version attribute; a newer one than this reader's is noted.
-std::array<int, 3> parse_version(std::string_view text, const SourceLocation& place,
-                                 std::vector<std::string>& notes) {
-    const std::vector<std::string_view> parts = split(text, ".");
-    const auto dots = std::count(text.begin(), text.end(), '.');
-    std::array<int, 3> version{};
-    bool good = !parts.empty() && parts.size() <= 3 && dots == std::ssize(parts) - 1;
-    for (std::size_t i = 0; good && i < parts.size(); ++i) {
-        const std::optional<std::int64_t> number = parse_integer(parts[i]);
-        good = number && *number >= 0 && *number <= 9999;
-        if (good) version[i] = static_cast<int>(*number);
-    }
-    if (!good)
-        refuse(place, "version " + in_quotes(text) + " is not a version number such as \"3.0.0\"");
-    if (version[0] > newest_version)
-        notes.push_back(place.to_string() + ": version " + in_quotes(text) +
-                        " of the format is newer than " + std::to_string(newest_version) +
-                        ", as which the file is read");
-    return version;
+/// A <spectrum> can be a plugin too.
+bool is_plugin(pugi::xml_node node) {
+    return std::string_view(node.name()) == "spectrum" && node.attribute("type");
 }
 
-bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
-bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
-
-/// fovAxis -> fov_axis: files older than version 2.0 name their parameters so.
-std::string snake_case(std::string_view name) {
-    std::string result;
-    for (std::size_t i = 0; i < name.size(); ++i) {
-        if (i > 0 && is_lower(name[i - 1]) && is_upper(name[i])) {
-            result += '_';
-            for (; i < name.size() && is_upper(name[i]); ++i)
-                result += static_cast<char>(name[i] - 'A' + 'a');
-            --i;
-        } else {
-            result += name[i];
-        }
-    }
-    return result;
+void check_object(const XmlFile& xml, pugi::xml_node node) {
+    if (std::string_view(node.name()) == "scene")
+        check_attributes(xml, node, {"!version", "type", "id", "name"});
+    else if (node == xml.root())
+        check_attributes(xml, node, {"!version", "!type", "id", "name"});
+    else
+        check_attributes(xml, node, {"!type", "id", "name"});
 }
 
 class Reader {
 public:
     Reader(const std::string& file, const LoadOptions& options)
-        : document_{{}, FileFinder(file, options.allow_outside), {}},
+        : document_{.objects = {},
+                    .files = FileFinder(file, options.allow_outside),
+                    .notes = {},
+                    .own_integrator = options.own_integrator},
           substitution_(options.parameters) {}
 
     Document read(const XmlFile& xml, const LoadOptions& options);
@@ -77,9 +55,13 @@ private:
         int include_depth;
     };
 
+    void read_scene(const XmlFile& xml);
     void read_element(const Source& source, pugi::xml_node node, std::size_t parent, int nesting);
+    void read_leaf(const Source& source, pugi::xml_node node, std::size_t parent);
+    void read_child(const Source& source, pugi::xml_node node, std::size_t parent, int nesting);
     std::size_t read_object(const Source& source, pugi::xml_node node, int nesting);
     void read_parameter(const Source& source, pugi::xml_node node, std::size_t parent);
+    void add_parameter(std::size_t parent, Parameter parameter);
     void read_include(const Source& source, pugi::xml_node node, std::size_t parent, int nesting);
     void read_reference(const Source& source, pugi::xml_node node, std::size_t parent);
     void read_alias(const Source& source, pugi::xml_node node);
@@ -104,7 +86,7 @@ void Reader::substitute(const Source& source, pugi::xml_node node) {
             substitute(source, step);
 }
 
-Document Reader::read(const XmlFile& xml, const LoadOptions& options) {
+void Reader::read_scene(const XmlFile& xml) {
     const pugi::xml_node root = xml.root();
     const SourceLocation place = xml.location(root);
     if (std::string_view(root.name()) != "scene")
@@ -116,33 +98,67 @@ Document Reader::read(const XmlFile& xml, const LoadOptions& options) {
     const Source source{xml, version[0] < 2, 0};
     read_object(source, root, 0);
     resolve_references(document_, ids_);
+}
+
+Document Reader::read(const XmlFile& xml, const LoadOptions& options) {
+    if (!document_.problems.attempt([&] { read_scene(xml); })) document_.problems.throw_if_any();
     for (const auto& [name, value] : options.parameters)
         if (!substitution_.used(name))
             throw InputError("-D " + name + "=" + value + ": " + xml.name() + " uses no $" + name);
     return std::move(document_);
 }
 
+/// What is wrong with one element is kept, and the next one read; only a file that is included, or
+/// what stands too deep, ends the reading.
 void Reader::read_element(const Source& source, pugi::xml_node node, std::size_t parent,
                           int nesting) {
+    if (nesting > max_nesting)
+        refuse(source.xml.location(node),
+               "elements are nested more than " + std::to_string(max_nesting) + " deep");
+    const std::string_view tag = node.name();
+    const bool object = std::find(object_tags.begin(), object_tags.end(), tag) != object_tags.end();
+    if (node.type() != pugi::node_element || (tag != "include" && !object && !is_plugin(node))) {
+        document_.problems.attempt([&] { read_leaf(source, node, parent); });
+        return;
+    }
+    if (!document_.problems.attempt([&] { substitute(source, node); })) return;
+    if (tag == "include")
+        read_include(source, node, parent, nesting);
+    else
+        read_child(source, node, parent, nesting);
+}
+
+void Reader::read_child(const Source& source, pugi::xml_node node, std::size_t parent,
+                        int nesting) {
+    if (!node.attribute("type") && std::string_view(node.name()) != "scene") {
+        document_.problems.attempt([&] { check_object(source.xml, node); });
+        return; // nobody knows what it would have been
+    }
+    Child child{node.attribute("name").value(), source.xml.location(node), {}, 0};
+    child.object = read_object(source, node, nesting);
+    const Object& object = document_.objects[child.object];
+    if (child.name.empty() || !object.id.empty() || !object.children.empty() ||
+        !is_spectrum_plugin(object)) {
+        document_.objects[parent].children.push_back(std::move(child));
+        return;
+    }
+    document_.problems.attempt([&] {
+        Value value = read_spectrum_plugin(document_, object, document_.notes);
+        add_parameter(parent,
+                      {child.name, child.name, node.name(), child.location, std::move(value)});
+    });
+    document_.objects.pop_back();
+}
+
+/// Everything but plugins and includes.
+void Reader::read_leaf(const Source& source, pugi::xml_node node, std::size_t parent) {
     if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata)
         refuse(source.xml.location(node), "stray text " + in_quotes(node.value()) + " inside <" +
                                               document_.objects[parent].tag + ">");
     if (node.type() != pugi::node_element) return;
-    if (nesting > max_nesting)
-        refuse(source.xml.location(node),
-               "elements are nested more than " + std::to_string(max_nesting) + " deep");
     substitute(source, node);
     const std::string_view tag = node.name();
-    const bool object = std::find(object_tags.begin(), object_tags.end(), tag) != object_tags.end();
-    if (object || (tag == "spectrum" && node.attribute("type"))) {
-        Child child{node.attribute("name").value(), source.xml.location(node), {}, 0};
-        child.object = read_object(source, node, nesting);
-        document_.objects[parent].children.push_back(std::move(child));
-        return;
-    }
-    if (tag == "include")
-        read_include(source, node, parent, nesting);
-    else if (tag == "ref")
+    if (tag == "ref")
         read_reference(source, node, parent);
     else if (tag == "alias")
         read_alias(source, node);
@@ -159,13 +175,7 @@ std::size_t Reader::read_object(const Source& source, pugi::xml_node node, int n
     const bool scene = std::string_view(node.name()) == "scene";
     if (scene && !document_.objects.empty())
         refuse(source.xml.location(node), "<scene> cannot stand inside another element");
-    const bool file_root = node == source.xml.root();
-    if (scene)
-        check_attributes(source.xml, node, {"!version", "type", "id", "name"});
-    else if (file_root)
-        check_attributes(source.xml, node, {"!version", "!type", "id", "name"});
-    else
-        check_attributes(source.xml, node, {"!type", "id", "name"});
+    document_.problems.attempt([&] { check_object(source.xml, node); });
     const std::size_t index = document_.objects.size();
     Object object{node.name(),
                   scene ? "scene" : node.attribute("type").value(),
@@ -173,15 +183,17 @@ std::size_t Reader::read_object(const Source& source, pugi::xml_node node, int n
                   source.xml.location(node),
                   {},
                   {}};
-    if (!object.id.empty()) {
+    document_.problems.attempt([&] {
+        if (object.id.empty()) return;
         const auto [other, added] = ids_.emplace(object.id, index);
         if (!added)
             refuse(object.location, "id " + in_quotes(object.id) + " is already taken at " +
                                         document_.objects[other->second].location.to_string());
-    }
+    });
     document_.objects.push_back(std::move(object));
     for (const pugi::xml_node child : node.children())
         read_element(source, child, index, nesting + 1);
+    if (source.before_2_0) upgrade_old_object(document_.objects[index]);
     return index;
 }
 
@@ -246,18 +258,26 @@ void Reader::read_path(const Source& source, pugi::xml_node node, std::size_t pa
 
 void Reader::read_parameter(const Source& source, pugi::xml_node node, std::size_t parent) {
     const SourceLocation place = source.xml.location(node);
-    Value value = read_value(source.xml, node, document_.files, document_.notes);
-    std::string name = node.attribute("name").value();
+    const std::string name = node.attribute("name").value();
+    Parameter parameter{source.before_2_0 ? snake_case(name) : name, name, node.name(), place,
+                        Unread{}};
+    const bool read = document_.problems.attempt([&] {
+        parameter.value =
+            read_value(source.xml, node, document_.files, document_.notes, source.before_2_0);
+    });
+    if (!read && (name.empty() || !is_value_tag(node.name()))) return;
     if (name.empty()) refuse(place, std::string("<") + node.name() + ">: the name is empty");
-    if (source.before_2_0) name = snake_case(name);
+    add_parameter(parent, std::move(parameter));
+}
+
+void Reader::add_parameter(std::size_t parent, Parameter parameter) {
     Object& object = document_.objects[parent];
-    if (source.before_2_0 && object.plugin == "diffuse" && name == "diffuse_reflectance")
-        name = "reflectance";
     for (const Parameter& other : object.parameters)
-        if (other.name == name)
-            refuse(place, "parameter " + in_quotes(name) + " is given twice, first at " +
-                              other.location.to_string());
-    object.parameters.push_back({std::move(name), node.name(), place, std::move(value)});
+        if (other.name == parameter.name)
+            refuse(parameter.location, "parameter " + in_quotes(parameter.spelling) +
+                                           " is given twice, first at " +
+                                           other.location.to_string());
+    object.parameters.push_back(std::move(parameter));
 }
 
 } // namespace

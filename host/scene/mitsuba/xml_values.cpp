@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -24,6 +25,7 @@ struct Element {
     pugi::xml_node node;
     const FileFinder& files;
     std::vector<std::string>& notes;
+    bool before_2_0;
 
     SourceLocation place() const { return xml.location(node); }
     std::string_view attribute(const char* name) const { return node.attribute(name).value(); }
@@ -115,11 +117,48 @@ Value read_rgb(const Element& e) {
     return parse_rgb(e.attribute("value"), e.place());
 }
 
+Value read_srgb(const Element& e) {
+    check_attributes(e.xml, e.node, {"!name", "!value"});
+    return parse_srgb(e.attribute("value"), e.place());
+}
+
+/// temperature="5000" or "5000K", and a factor.
+Value read_blackbody(const Element& e) {
+    check_attributes(e.xml, e.node, {"!name", "!temperature", "scale"});
+    std::string_view text = e.attribute("temperature");
+    if (text.ends_with('K') || text.ends_with('k')) text.remove_suffix(1);
+    const Domain& domain = number_parameter("spectrum", "blackbody", "temperature").domain;
+    const std::optional<double> kelvins = parse_number(text);
+    if (!kelvins || placed(domain, *kelvins) != kelvins)
+        refuse(e.place(), "<blackbody>: the temperature is " +
+                              in_quotes(e.attribute("temperature")) +
+                              " (accepted: " + accepted_text(domain) + ")");
+    SpectrumValue spectrum = blackbody(*kelvins);
+    const double scale = e.node.attribute("scale") ? number_attribute(e, "scale") : 1.0;
+    for (double& value : spectrum.values)
+        value *= scale;
+    return spectrum;
+}
+
+/// Without wavelengths, of a file older than 2.0: linear RGB, as Mitsuba 0.x has it unless it is
+/// built for spectra. White, where Mitsuba 3 lets a light of one value be constant over
+/// wavelengths.
+Value read_old_spectrum(const Element& e) {
+    const std::string_view parent = e.node.parent().name();
+    if (parent == "emitter")
+        e.notes.push_back(e.place().to_string() +
+                          ": <spectrum>: a light without wavelengths in a file older than 2.0 is "
+                          "linear RGB, as in Mitsuba 0.x (one value in Mitsuba 3: reddish)");
+    return parse_rgb(e.attribute("value"), e.place());
+}
+
 Value read_spectrum(const Element& e) {
     check_attributes(e.xml, e.node, {"!name", "value", "filename"});
     const bool has_file = !e.attribute("filename").empty();
     if (has_file == !e.attribute("value").empty())
         refuse(e.place(), "<spectrum> takes either value or filename");
+    const bool without_wavelengths = e.attribute("value").find(':') == std::string_view::npos;
+    if (!has_file && e.before_2_0 && without_wavelengths) return read_old_spectrum(e);
     if (!has_file) return parse_spectrum(e.attribute("value"), e.place());
     const std::filesystem::path path =
         e.files.file(std::string(e.attribute("filename")), e.place());
@@ -177,7 +216,7 @@ Value read_transform(const Element& e) {
     glm::dmat4 result(1.0);
     for (const pugi::xml_node child : e.node.children())
         if (child.type() == pugi::node_element)
-            result = read_step({e.xml, child, e.files, e.notes}) * result;
+            result = read_step({e.xml, child, e.files, e.notes, e.before_2_0}) * result;
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
             if (const Domain& domain = step_domain("matrix", "value");
@@ -194,24 +233,35 @@ struct ValueReader {
     Value (*read)(const Element&);
 };
 
-constexpr std::array<ValueReader, 9> value_readers = {{{"float", read_float},
-                                                       {"integer", read_integer},
-                                                       {"boolean", read_boolean},
-                                                       {"string", read_string},
-                                                       {"vector", read_vector},
-                                                       {"point", read_vector},
-                                                       {"rgb", read_rgb},
-                                                       {"spectrum", read_spectrum},
-                                                       {"transform", read_transform}}};
+constexpr std::array<ValueReader, 11> value_readers = {{{"float", read_float},
+                                                        {"integer", read_integer},
+                                                        {"boolean", read_boolean},
+                                                        {"string", read_string},
+                                                        {"vector", read_vector},
+                                                        {"point", read_vector},
+                                                        {"rgb", read_rgb},
+                                                        {"srgb", read_srgb},
+                                                        {"blackbody", read_blackbody},
+                                                        {"spectrum", read_spectrum},
+                                                        {"transform", read_transform}}};
 
 } // namespace
 
+bool is_value_tag(std::string_view tag) {
+    return std::any_of(value_readers.begin(), value_readers.end(),
+                       [&](const ValueReader& reader) { return reader.tag == tag; });
+}
+
 Value read_value(const XmlFile& xml, pugi::xml_node node, const FileFinder& files,
-                 std::vector<std::string>& notes) {
+                 std::vector<std::string>& notes, bool before_2_0) {
     const std::string_view tag = node.name();
     for (const ValueReader& reader : value_readers)
-        if (reader.tag == tag) return reader.read({xml, node, files, notes});
-    refuse(xml.location(node), "unknown element <" + std::string(tag) + ">");
+        if (reader.tag == tag) return reader.read({xml, node, files, notes, before_2_0});
+    std::string accepted;
+    for (const ValueReader& reader : value_readers)
+        accepted += std::string(reader.tag) + ", ";
+    refuse(xml.location(node), "unknown element <" + std::string(tag) + "> (accepted: " + accepted +
+                                   "ref, include, alias, default, path, or the kind of a plugin)");
 }
 
 } // namespace parhelion::mitsuba
