@@ -1,4 +1,4 @@
-// Boxes of triangles, spheres and disks.
+// Boxes of triangles, spheres, cylinders and disks.
 #include "host/bvh/bounds.h"
 
 #include "kernels/shared/features.h"
@@ -36,11 +36,25 @@ Interval disk_extent(float centre, float u, float v) {
     return outward(centre, std::sqrt(double(u) * u + double(v) * v));
 }
 
+/// Between circles of the radius about both ends of the axis; `share`: of the axis, along it.
+Interval cylinder_extent(float base, float axis, float radius, double share) {
+    double reach = std::fabs(double(radius)) * std::sqrt(std::max(0.0, 1.0 - share * share));
+    double end = double(base) + axis;
+    return {std::nextafter(float(std::min(double(base), end) - reach), -infinite),
+            std::nextafter(float(std::max(double(base), end) + reach), infinite)};
+}
+
 std::array<Interval, 3> extents(const PrimitiveRecord& p) {
     switch (geometry_kind(p)) {
     case geometry_sphere: {
         double radius = std::fabs(p.extra);
         return {outward(p.ax, radius), outward(p.ay, radius), outward(p.az, radius)};
+    }
+    case geometry_cylinder: {
+        glm::dvec3 share = glm::normalize(glm::dvec3(p.bx, p.by, p.bz));
+        return {cylinder_extent(p.ax, p.bx, p.extra, share.x),
+                cylinder_extent(p.ay, p.by, p.extra, share.y),
+                cylinder_extent(p.az, p.bz, p.extra, share.z)};
     }
     case geometry_disk:
         return {disk_extent(p.ax, p.bx, p.cx), disk_extent(p.ay, p.by, p.cy),
@@ -70,6 +84,8 @@ Interval widened(Interval i, double margin) {
 float longest_side(const PrimitiveRecord& p) { return float(longest_side(extents(p))); }
 
 bool can_be_hit(const PrimitiveRecord& p) {
+    if (geometry_kind(p) == geometry_cylinder)
+        return glm::dvec3(p.bx, p.by, p.bz) != glm::dvec3(0.0);
     if (geometry_kind(p) != geometry_triangle) return true;
     glm::dvec3 a(p.ax, p.ay, p.az);
     return glm::cross(glm::dvec3(p.bx, p.by, p.bz) - a, glm::dvec3(p.cx, p.cy, p.cz) - a) !=

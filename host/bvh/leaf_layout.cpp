@@ -4,9 +4,13 @@
 #include "host/bvh/leaf_reader.h"
 #include "kernels/shared/features.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -92,6 +96,12 @@ std::optional<BvhPatch> make_patch(std::span<const Reference> references,
 
 std::array<float, 9> leaf_column(const PrimitiveRecord& p) {
     if (geometry_kind(p) == geometry_sphere) return {p.ax, p.ay, p.az, p.extra};
+    if (geometry_kind(p) == geometry_cylinder) {
+        glm::dvec3 axis(p.bx, p.by, p.bz);
+        glm::vec3 unit(glm::normalize(axis));
+        return {
+            p.ax, p.ay, p.az, unit.x, unit.y, unit.z, std::fabs(p.extra), float(glm::length(axis))};
+    }
     return {p.ax, p.ay, p.az, p.bx, p.by, p.bz, p.cx, p.cy, p.cz};
 }
 

@@ -50,7 +50,7 @@ public:
         return column;
     }
 
-    /// PRIMITIVE_FLIPPED, of spheres and disks.
+    /// PRIMITIVE_FLIPPED, of what is no triangle.
     bool flipped(int k) const {
         return kind() != geometry_triangle && (leaf_->primitive[k] >> BVH_SIZE_BIT & 1);
     }

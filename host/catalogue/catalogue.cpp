@@ -26,8 +26,9 @@ void append(std::vector<Row>& rows, const std::vector<FunctionTest>& tests) {
 
 std::vector<Row> catalogue() {
     std::vector<Row> rows;
-    for (auto tests : {fresnel_functions, microfacet_functions, vector_functions,
-                       intersection_functions, sampling_functions, normals_functions})
+    for (auto tests :
+         {fresnel_functions, microfacet_functions, vector_functions, intersection_functions,
+          cylinder_functions, sampling_functions, normals_functions})
         append(rows, tests());
 #define LIST_ROW(name, ways, chapter, title)                                                       \
     rows.push_back({#name, chapter, title, Ways::ways, row_##name});

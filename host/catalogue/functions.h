@@ -9,6 +9,7 @@ std::vector<FunctionTest> fresnel_functions();
 std::vector<FunctionTest> microfacet_functions();
 std::vector<FunctionTest> vector_functions();
 std::vector<FunctionTest> intersection_functions();
+std::vector<FunctionTest> cylinder_functions();
 std::vector<FunctionTest> sampling_functions();
 std::vector<FunctionTest> normals_functions();
 

@@ -113,6 +113,10 @@ f32::Light light_of(int kind, double size, vec3 n, double side) {
         l.bx = s, l.extra = static_cast<float>(side);
         l.area = static_cast<float>(4 * M_PI) * s * s;
         break;
+    case emitter_area_cylinder:
+        set_b(f32::scale3(n, s));
+        l.cx = s, l.extra = static_cast<float>(side), l.area = static_cast<float>(2 * M_PI) * s * s;
+        break;
     case emitter_area_disk:
         set_b(u), set_c(v);
         l.extra = static_cast<float>(side) / (s * s), l.area = static_cast<float>(M_PI) * s * s;
@@ -240,6 +244,7 @@ f32::Camera some_camera(Random& random) {
     c.near_clip = static_cast<float>(random.log_between(1e-6, 1));
     c.far_clip = c.near_clip * static_cast<float>(random.log_between(2, 1e9));
     c.focus_distance = static_cast<float>(random.log_between(1, 1e6));
+    c.parallel = static_cast<float>(random.bits() & 1);
     return c;
 }
 

@@ -70,7 +70,33 @@ void begin_far(CameraRecord& r, const Camera& camera, const glm::dvec2& axis,
 
 } // namespace
 
+namespace {
+
+/// Of parallel rays; those of a far camera begin near the shapes, too.
+CameraRecord parallel_record(const Camera& camera, int width, int height, const SceneFrame& frame) {
+    glm::dvec3 left(camera.to_world[0]), up(camera.to_world[1]), forward(camera.to_world[2]);
+    double pixel = 2.0 / width; // of camera space, in which the film is 2 wide
+    glm::dvec3 step_x = -left * pixel, step_y = -up * pixel;
+    glm::dvec3 corner = forward * frame.start - 0.5 * width * step_x - 0.5 * height * step_y;
+    Point o = to_float((corner - frame.shift) * frame.scale), d = to_float(forward);
+    Point u = to_float(step_x * frame.scale), v = to_float(step_y * frame.scale);
+    CameraRecord r{};
+    r.ox = o.x, r.oy = o.y, r.oz = o.z;
+    r.dx = d.x, r.dy = d.y, r.dz = d.z;
+    r.ux = u.x, r.uy = u.y, r.uz = u.z;
+    r.vx = v.x, r.vy = v.y, r.vz = v.z;
+    r.parallel = 1.0f;
+    bool far = frame.start > 0.0;
+    r.near_clip = far ? 0.0f : static_cast<float>(camera.near_clip * frame.scale);
+    r.far_clip = static_cast<float>((camera.far_clip - frame.start) * frame.scale);
+    r.start = far ? static_cast<float>((frame.start - camera.near_clip) * frame.scale) : 0.0f;
+    return r;
+}
+
+} // namespace
+
 CameraRecord camera_record(const Camera& camera, int width, int height, const SceneFrame& frame) {
+    if (camera.orthographic) return parallel_record(camera, width, height, frame);
     glm::dvec3 left(camera.to_world[0]), up(camera.to_world[1]), forward(camera.to_world[2]);
     double pixel = 2.0 * std::tan(0.5 * horizontal_fov(camera, width, height)) / width;
     glm::dvec3 step_x = -left * pixel, step_y = -up * pixel;

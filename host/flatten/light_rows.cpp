@@ -116,6 +116,18 @@ std::vector<LightRow> rows_of(const Disk& in_scene, const SceneFrame& frame) {
     return {row};
 }
 
+std::vector<LightRow> rows_of(const Cylinder& in_scene, const SceneFrame& frame) {
+    Cylinder cylinder = frame.cylinder(in_scene);
+    double radius = glm::length(cylinder.side);
+    LightRow row;
+    row.kind = emitter_area_cylinder;
+    row.a = cylinder.base, row.b = cylinder.axis, row.c.x = radius;
+    row.extra = side_of(cylinder.flip_normals);
+    row.area = 2.0 * pi * radius * glm::length(cylinder.axis);
+    row.first_primitive = 0;
+    return {row};
+}
+
 // ---- emitters that are no surfaces
 
 struct Box {
@@ -208,6 +220,9 @@ Box box_around(const IndexedGeometry& geometry) {
         switch (p.flags & PRIMITIVE_KIND_MASK) {
         case geometry_sphere:
             box.grow(a, p.extra);
+            break;
+        case geometry_cylinder:
+            box.grow(a, std::fabs(p.extra)), box.grow(a + b, std::fabs(p.extra));
             break;
         case geometry_disk:
             box.grow(a, std::hypot(glm::length(b), glm::length(c)));

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,12 @@ Rounded rounding_of(const Sphere& in_scene, const SceneFrame& frame) {
 Rounded rounding_of(const Disk& in_scene, const SceneFrame& frame) {
     Disk d = frame.disk(in_scene);
     return rounding_of_place(d.center, std::max(largest(d.edge_u), largest(d.edge_v)));
+}
+
+Rounded rounding_of(const Cylinder& in_scene, const SceneFrame& frame) {
+    Cylinder c = frame.cylinder(in_scene);
+    return rounding_of_place(glm::max(glm::abs(c.base), glm::abs(c.base + c.axis)),
+                             glm::length(c.side));
 }
 
 } // namespace

@@ -226,6 +226,8 @@ void decide_camera_and_sampler(const Scene& scene, const DeviceScene& records,
                fmt::format("{}, {}", name, counted(sampler.replicates, "replicate")));
     out.decide(feature_thin_lens, scene.camera.aperture_radius > 0.0,
                fmt::format("aperture of radius {}", scene.camera.aperture_radius));
+    out.decide(feature_orthographic, scene.camera.orthographic,
+               scene.camera.orthographic ? "parallel rays" : "a camera of perspective");
     out.decide(feature_far_camera, records.frame.start > 0.0,
                fmt::format("rays start at {}", records.frame.start));
 }

@@ -57,6 +57,13 @@ Disk SceneFrame::disk(Disk d) const {
     return d;
 }
 
+Cylinder SceneFrame::cylinder(Cylinder c) const {
+    c.base = point(c.base);
+    c.axis *= scale;
+    c.side *= scale;
+    return c;
+}
+
 SceneFrame scene_frame(const Scene& scene) {
     SceneFrame frame;
     frame.camera = glm::dvec3(scene.camera.to_world[3]);

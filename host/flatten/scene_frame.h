@@ -45,6 +45,7 @@ struct SceneFrame {
     glm::dvec3 point(const glm::dvec3& p) const { return ((p - camera) - shift) * scale + 0.0; }
     Sphere sphere(Sphere s) const;
     Disk disk(Disk d) const;
+    Cylinder cylinder(Cylinder c) const;
 };
 
 /// Throws InputError for a scene whose size is no number. Without shapes, or with all of them in

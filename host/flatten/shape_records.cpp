@@ -143,6 +143,14 @@ void add_shape(const Disk& in_scene, const Shape& shape, Attributes some, Device
                  inverse_normal_length(disk.edge_u, disk.edge_v), some, out);
 }
 
+void add_shape(const Cylinder& in_scene, const Shape& shape, Attributes some, DeviceScene& out) {
+    Cylinder c = out.frame.cylinder(in_scene);
+    int flags = geometry_cylinder | (c.flip_normals ? PRIMITIVE_FLIPPED : 0);
+    double radius = glm::length(c.side);
+    add_analytic(shape_record(shape, flags, out.geometry), {c.base, c.axis, c.side},
+                 static_cast<float>(c.mirrored ? -radius : radius), some, out);
+}
+
 /// Arrays that grow would be copied, and have room to spare in the end.
 void reserve(const Scene& scene, Attributes some, DeviceScene& out) {
     std::size_t primitives = 0, points = 0;

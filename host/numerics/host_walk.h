@@ -73,6 +73,10 @@ inline f32::Intersection intersect(int kind, const std::array<float, 9>& p, cons
                                                f32::v3(p[3], p[4], p[5]), f32::v3(p[6], p[7], p[8]),
                                                t_max),
                            flipped);
+    if (kind == geometry_cylinder)
+        return f32::ranked(f32::intersect_cylinder(f32::sub3(origin, centre), direction,
+                                                   f32::v3(p[3], p[4], p[5]), p[6], p[7], t_max),
+                           flipped);
     f32::Corners corners = {r.renamed(p[0], p[1], p[2]), r.renamed(p[3], p[4], p[5]),
                             r.renamed(p[6], p[7], p[8])};
     return f32::intersect_triangle(corners, r.shear, t_max);
@@ -89,6 +93,17 @@ inline int kind_of(const PrimitiveRecord& p) { return p.flags & PRIMITIVE_KIND_M
 
 inline std::array<float, 9> column_of(const PrimitiveRecord& p) {
     if (kind_of(p) == geometry_sphere) return {p.ax, p.ay, p.az, p.extra};
+    if (kind_of(p) == geometry_cylinder) {
+        double x = p.bx, y = p.by, z = p.bz, height = std::sqrt(x * x + y * y + z * z);
+        return {p.ax,
+                p.ay,
+                p.az,
+                static_cast<float>(x * (1 / height)),
+                static_cast<float>(y * (1 / height)),
+                static_cast<float>(z * (1 / height)),
+                std::fabs(p.extra),
+                static_cast<float>(height)};
+    }
     return {p.ax, p.ay, p.az, p.bx, p.by, p.bz, p.cx, p.cy, p.cz};
 }
 
@@ -108,7 +123,7 @@ struct Leaf {
     int kind, lines;
     std::array<std::array<float, 9>, BVH_WIDTH> column{};
     std::array<int, BVH_WIDTH> primitive;
-    std::array<bool, BVH_WIDTH> flipped{}; ///< spheres and disks
+    std::array<bool, BVH_WIDTH> flipped{}; ///< what is no triangle
 };
 
 inline Leaf read_leaf(const Bvh& bvh, int child) {

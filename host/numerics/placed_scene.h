@@ -38,6 +38,12 @@ inline Disk placed(Disk d, const Placement& t) {
     return d;
 }
 
+inline Cylinder placed(Cylinder c, const Placement& t) {
+    c.base = t.point(c.base);
+    c.axis = t.scale * (t.turn * c.axis), c.side = t.scale * (t.turn * c.side);
+    return c;
+}
+
 inline Emitter placed(PointEmitter e, const Placement& t) {
     e.position = t.point(e.position), e.intensity *= t.scale * t.scale;
     return e;
@@ -90,6 +96,7 @@ inline Scene with_coarse_places(Scene scene) {
                 snap(p);
         if (auto* sphere = std::get_if<Sphere>(&shape.geometry)) snap(sphere->center);
         if (auto* disk = std::get_if<Disk>(&shape.geometry)) snap(disk->center);
+        if (auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) snap(cylinder->base);
     }
     for (Emitter& emitter : scene.emitters) {
         if (auto* point = std::get_if<PointEmitter>(&emitter)) snap(point->position);

@@ -154,6 +154,9 @@ private:
             put(std::cos(cutoff)), put(cutoff), put(1 / (cutoff - beam));
             extra = std::cos(beam);
             break;
+        case emitter_area_cylinder:
+            values("psrr");
+            break;
         case emitter_directional:
             values("drrr");
             break;
@@ -182,6 +185,7 @@ private:
             put(random_.log_between(1e-2, 1e2));
         put(random_.between(0, 1e3)), put(random_.between(0, 1e3));
         values("sup"), put(random_.unit());
+        put(one_in(2) ? 1 : 0); // parallel
     }
 
     Random random_;

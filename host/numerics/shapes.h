@@ -54,6 +54,15 @@ inline PrimitiveRecord disk(const Vector& centre, const Vector& edge_u, const Ve
     return primitive(geometry_disk, centre, edge_u, edge_v);
 }
 
+inline PrimitiveRecord cylinder(const Vector& base, const Vector& axis, float radius) {
+    // Some side across the axis, of that length.
+    Vector along = std::fabs(axis[0]) < std::fabs(axis[1]) ? Vector{1, 0, 0} : Vector{0, 1, 0};
+    Vector side{axis[1] * along[2] - axis[2] * along[1], axis[2] * along[0] - axis[0] * along[2],
+                axis[0] * along[1] - axis[1] * along[0]};
+    float length = std::sqrt(side[0] * side[0] + side[1] * side[1] + side[2] * side[2]);
+    return primitive(geometry_cylinder, base, axis, scaled(side, radius / length), radius);
+}
+
 inline Primitives random_triangles(int count, float size) {
     Random random(1);
     Primitives result;
@@ -66,16 +75,17 @@ inline Primitives random_triangles(int count, float size) {
     return result;
 }
 
-/// Triangles, spheres and disks in turn.
+/// Triangles, spheres, disks and cylinders in turn.
 inline Primitives random_mixture(int count) {
     Random random(2);
     Primitives result;
     for (int i = 0; i < count; i++) {
         Vector a = uniform_vector(random, -1, 1);
         Vector u = uniform_vector(random, -.1f, .1f), v = uniform_vector(random, -.1f, .1f);
-        if (i % 3 == 0) result.push_back(triangle(a, add(a, u), add(a, v)));
-        if (i % 3 == 1) result.push_back(sphere(a, uniform(random, 0.001f, .1f)));
-        if (i % 3 == 2) result.push_back(disk(a, u, v));
+        if (i % 4 == 0) result.push_back(triangle(a, add(a, u), add(a, v)));
+        if (i % 4 == 1) result.push_back(sphere(a, uniform(random, 0.001f, .1f)));
+        if (i % 4 == 2) result.push_back(disk(a, u, v));
+        if (i % 4 == 3) result.push_back(cylinder(a, u, uniform(random, 0.001f, .1f)));
     }
     return result;
 }

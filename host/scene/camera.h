@@ -9,11 +9,15 @@ namespace parhelion {
 
 enum class FovAxis { x, y, diagonal, smaller, larger };
 
-/// Pinhole or thin-lens camera. Camera space: looks along +z, +y is up, +x is to the LEFT of the
-/// image (Mitsuba's convention: to_world is a rotation and translation, in rare files with a
-/// mirror, and image x runs along camera -x).
+/// Pinhole, thin-lens or orthographic camera. Camera space: looks along +z, +y is up, +x is to the
+/// LEFT of the image (Mitsuba's convention: to_world is a rotation and translation, in rare files
+/// with a mirror, and image x runs along camera -x).
 struct Camera {
     glm::dmat4 to_world{1.0};
+    /// Rays are parallel to camera z. The film is 2 wide, from camera x = -1 to 1, its pixels
+    /// square; to_world scales it, and its z axis alone is of unit length. No field of view, no
+    /// aperture.
+    bool orthographic = false;
     std::optional<double>
         fov_degrees; ///< full angle along fov_axis; absent when focal_length_mm is given
     std::optional<double>

@@ -42,7 +42,18 @@ struct Disk {
     bool flip_normals = false;
 };
 
-using Geometry = std::variant<Mesh, Sphere, Disk>;
+/// Analytic cylinder without caps about the line from `base` to `base + axis`. `side`, across the
+/// axis and as long as the radius, is where the uv parametrisation begins; it goes round the axis
+/// counter-clockwise, seen from its end, or the other way where the shape is mirrored. The normal
+/// points away from the axis.
+struct Cylinder {
+    glm::dvec3 base{0.0};
+    glm::dvec3 axis{0, 0, 1}, side{1, 0, 0};
+    bool mirrored = false;
+    bool flip_normals = false; ///< the normal points to the axis
+};
+
+using Geometry = std::variant<Mesh, Sphere, Disk, Cylinder>;
 
 struct Shape {
     std::string id;

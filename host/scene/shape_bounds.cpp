@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
 
 namespace parhelion {
 namespace {
@@ -32,6 +33,15 @@ ShapeBounds bounds_of(const Sphere& s, const glm::dvec3& origin) {
 
 ShapeBounds bounds_of(const Disk& d, const glm::dvec3& origin) {
     return bounds_around(d.center - origin, glm::sqrt(d.edge_u * d.edge_u + d.edge_v * d.edge_v));
+}
+
+/// Of the circles at its ends.
+ShapeBounds bounds_of(const Cylinder& c, const glm::dvec3& origin) {
+    const glm::dvec3 unit = glm::normalize(c.axis);
+    const glm::dvec3 reach =
+        glm::length(c.side) * glm::sqrt(glm::max(glm::dvec3(1.0) - unit * unit, 0.0));
+    const glm::dvec3 base = c.base - origin;
+    return join(bounds_around(base, reach), bounds_around(base + c.axis, reach));
 }
 
 } // namespace

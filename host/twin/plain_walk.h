@@ -18,6 +18,12 @@ Intersection plain_primitive(const PacketRay& r, const Primitive& p, Real t_max)
         return ranked(intersect_disk(sub3(primitive_a(p), r.origin), r.direction, primitive_b(p),
                                      primitive_c(p), t_max),
                       (p.flags & PRIMITIVE_FLIPPED) != 0);
+    if (primitive_kind(p) == geometry_cylinder) {
+        vec3 axis = primitive_b(p);
+        return ranked(intersect_cylinder(sub3(r.origin, primitive_a(p)), r.direction,
+                                         normalize3(axis), absR(p.extra), length3(axis), t_max),
+                      (p.flags & PRIMITIVE_FLIPPED) != 0);
+    }
     Corners v = {rename_axes(r, primitive_a(p)), rename_axes(r, primitive_b(p)),
                  rename_axes(r, primitive_c(p))};
     return intersect_triangle(v, r.shear, t_max);

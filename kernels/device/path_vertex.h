@@ -30,6 +30,13 @@ FN SurfaceInteraction surface_at(ScenePrimitive primitive, Path path, Mask hit) 
             s = sel_surface(mine, surface_sphere(p, there), s);
         }
     }
+    if (HAS(shape_cylinder)) {
+        Mask mine = primitive_kind(p) == geometry_cylinder;
+        if (someLane(mine)) {
+            vec3 there = add3(path.origin, scale3(path.direction, path.t));
+            s = sel_surface(mine, surface_cylinder(p, there), s);
+        }
+    }
     if (HAS(shape_disk)) {
         Mask mine = primitive_kind(p) == geometry_disk;
         if (someLane(mine)) s = sel_surface(mine, surface_disk(p, path.b1, path.b2), s);

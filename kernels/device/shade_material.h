@@ -90,6 +90,8 @@ FN Shading turned_to_viewer(ShadeWork w, PathVertex v, Shading s) {
     }
     s.clearance = surface_clearance(v.surface.error, v.surface.ng);
     Mask round = primitive_kind(v.primitive.whole) == geometry_sphere;
+    if (HAS(shape_cylinder))
+        round = round | (primitive_kind(v.primitive.whole) == geometry_cylinder);
     s.excluded = sel(round, (Int)(-1), v.path.primitive);
     return s;
 }

@@ -44,7 +44,7 @@ FN TriangleHit ranked_backs(TriangleHit h, Corners s, RayShear ray) {
     return h;
 }
 
-/// A sphere or a disk, of whose hits none is doubtful. The determinant is negative where its back
+/// What is no triangle, of whose hits none is doubtful. The determinant is negative where its back
 /// is seen.
 FN TriangleHit certain_hit(Intersection i) {
     TriangleHit h;
@@ -144,7 +144,15 @@ FN Intersection leaf_disks(global const BvhLeaf* leaf, int group, const Traversa
                           edge_v, (Real)t_max);
 }
 
-// Of spheres and disks.
+FN Intersection leaf_cylinders(global const BvhLeaf* leaf, int group, const TraversalRay* ray,
+                               float t_max) {
+    vec3 base = v3(LEAF_ROW(0), LEAF_ROW(1), LEAF_ROW(2)),
+         axis = v3(LEAF_ROW(3), LEAF_ROW(4), LEAF_ROW(5));
+    return intersect_cylinder(sub3(splat_ray(ray->origin), base), splat_ray(ray->direction), axis,
+                              LEAF_ROW(6), LEAF_ROW(7), (Real)t_max);
+}
+
+// Of what is no triangle.
 #define LEAF_FLIPPED ((LOAD_INT(leaf->primitive + group * LANES) << (31 - BVH_SIZE_BIT)) < 0)
 
 FN TriangleHit leaf_group(global const BvhLeaf* leaf, int kind, int group, const TraversalRay* ray,
@@ -153,6 +161,8 @@ FN TriangleHit leaf_group(global const BvhLeaf* leaf, int kind, int group, const
         return certain_hit(ranked(leaf_spheres(leaf, group, ray, t_max), LEAF_FLIPPED));
     if (HAS(shape_disk) && kind == geometry_disk)
         return certain_hit(ranked(leaf_disks(leaf, group, ray, t_max), LEAF_FLIPPED));
+    if (HAS(shape_cylinder) && kind == geometry_cylinder)
+        return certain_hit(ranked(leaf_cylinders(leaf, group, ray, t_max), LEAF_FLIPPED));
     return leaf_triangles(leaf, group, ray, size, t_max, any_hit);
 }
 

@@ -93,6 +93,12 @@ FN TriangleHit packet_primitive(global const BvhLeaf* leaf, int kind, int k, Pac
             ranked(intersect_disk(sub3(column(leaf->rows, k), r.origin), r.direction,
                                   column(leaf->rows + 3, k), column(leaf->rows + 6, k), t),
                    flipped));
+    if (HAS(shape_cylinder) && kind == geometry_cylinder)
+        return certain_hit(
+            ranked(intersect_cylinder(sub3(r.origin, column(leaf->rows, k)), r.direction,
+                                      column(leaf->rows + 3, k), (Real)leaf->rows[6][k],
+                                      (Real)leaf->rows[7][k], t),
+                   flipped));
     Corners s;
     s.a = packet_corner(leaf->rows, k, r, bounds);
     s.b = packet_corner(leaf->rows + 3, k, r, bounds);

@@ -16,7 +16,20 @@ FN vec3 from_axis(Camera c, vec2 film) {
 /// From the near plane to the point at t of a camera ray from `origin`.
 FN Real camera_distance(Camera c, vec3 origin, Real t) {
     if (!HAS(far_camera)) return t;
-    return t + length3(sub3(origin, v3(c.fx, c.fy, c.fz))) * c.clear_share;
+    Real before = length3(sub3(origin, v3(c.fx, c.fy, c.fz))) * c.clear_share;
+    if (HAS(orthographic)) before = sel(c.parallel != R(0.), c.start, before);
+    return t + before;
+}
+
+/// Of an orthographic camera: parallel to all others.
+FN CameraRay parallel_ray(Camera c, vec2 film) {
+    vec3 at = add3(v3(c.ox, c.oy, c.oz), add3(scale3(v3(c.ux, c.uy, c.uz), film.x),
+                                              scale3(v3(c.vx, c.vy, c.vz), film.y)));
+    CameraRay ray;
+    ray.direction = v3(c.dx, c.dy, c.dz);
+    ray.origin = add3(at, scale3(ray.direction, c.near_clip));
+    ray.t_max = c.far_clip - c.near_clip;
+    return ray;
 }
 
 /// film: pixels from the top left corner of the full film; lens: point of the unit disk.
@@ -40,5 +53,12 @@ FN CameraRay camera_ray(Camera c, vec2 film, vec2 lens) {
     ray.origin = add3(origin, scale3(d, c.near_clip));
     ray.direction = scale3(d, R(1.) / length);
     ray.t_max = (c.far_clip - c.near_clip) * length;
+    if (HAS(orthographic)) {
+        Mask mine = c.parallel != R(0.);
+        CameraRay parallel = parallel_ray(c, film);
+        ray.origin = sel3(mine, parallel.origin, ray.origin);
+        ray.direction = sel3(mine, parallel.direction, ray.direction);
+        ray.t_max = sel(mine, parallel.t_max, ray.t_max);
+    }
     return ray;
 }

@@ -8,12 +8,12 @@
 #include "shared/materials.h"
 
 // clang-format off
-#define GEOMETRIES(X) X(triangle) X(sphere) X(disk)
+#define GEOMETRIES(X) X(triangle) X(sphere) X(disk) X(cylinder)
 
 // Rows of the light table: name, whether a ray can meet it. An area emitter has one row for each of its primitives.
 #define EMITTERS(X)                                                                                \
     X(area_triangle, 1) X(area_parallelogram, 1) X(area_sphere, 1) X(area_disk, 1) X(point, 0)       \
-    X(spot, 0) X(directional, 0) X(constant, 1) X(area_tiny_triangle, 1)
+    X(spot, 0) X(directional, 0) X(constant, 1) X(area_tiny_triangle, 1) X(area_cylinder, 1)
 
 // First-hit values beside the radiance: name, number of channels, suffixes of the channel names. A channel without suffix is
 // for the host: of a position, 1, to know how much of a pixel has one.
@@ -38,6 +38,7 @@
     X(faure)              /* samples of a pixel in a pattern; without: independent */               \
     X(replicates)         /* that is several, each scrambled by itself */                           \
     X(thin_lens)                                                                                   \
+    X(orthographic)       /* the camera's rays are parallel */                                     \
     X(far_camera)         /* so far from all shapes that rays begin near them */                   \
     X(filter_splatting)   /* a sample counts for all pixels that the filter reaches */              \
     X(filter_sampling)    /* a sample lies where the filter has put it, and counts for one pixel */ \

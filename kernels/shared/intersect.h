@@ -1,19 +1,24 @@
-// A ray against spheres, disks and boxes, a Real's worth of primitives at a time.
+// A ray against spheres, cylinders, disks and boxes, a Real's worth of primitives at a time.
 
 /// Without a hit the rest is of no account.
 typedef struct {
     Mask hit;
-    Mask back; // seen from there; of spheres and disks but for PRIMITIVE_FLIPPED
+    Mask back; // seen from there; of what is no triangle but for PRIMITIVE_FLIPPED
     Real t;
     Real rank; // of several hits the one of least rank counts: t, of a back a little more
     // barycentrics of the second and third corner; for a disk, coordinates along its edges
     Real b1, b2;
 } Intersection;
 
-/// Ray origin relative to the centre; direction of any length. The root is taken from the foot of
-/// the perpendicular (Haines et al. 2019, "Precision improvements for ray/sphere intersection"),
-/// which keeps digits for far spheres.
-FN Intersection intersect_sphere(vec3 origin, vec3 direction, Real radius, Real t_max) {
+typedef struct {
+    Mask meets; // without, the rest is of no account
+    Real near, far;
+} Roots;
+
+/// Where |origin + t direction| is the radius. The root is taken from the foot of the perpendicular
+/// (Haines et al. 2019, "Precision improvements for ray/sphere intersection"), which keeps digits
+/// for far spheres.
+FN Roots sphere_roots(vec3 origin, vec3 direction, Real radius) {
     Real a = dot3(direction, direction);
     Real b = -dot3(origin, direction);
     vec3 foot = add3(origin, scale3(direction, b / a));
@@ -22,11 +27,39 @@ FN Intersection intersect_sphere(vec3 origin, vec3 direction, Real radius, Real 
     Real c = (o_length - radius) * (o_length + radius);
     Real q = b + copysignR(sqrt_nonnegative(half_chord_squared), b);
     Real t0 = c / sel(q == R(0.), R(1.), q), t1 = q / a;
-    Real near = minR(t0, t1), far = maxR(t0, t1);
+    Roots roots;
+    roots.meets = half_chord_squared > R(0.);
+    roots.near = minR(t0, t1);
+    roots.far = maxR(t0, t1);
+    return roots;
+}
+
+/// Ray origin relative to the centre; direction of any length.
+FN Intersection intersect_sphere(vec3 origin, vec3 direction, Real radius, Real t_max) {
+    Roots roots = sphere_roots(origin, direction, radius);
     Intersection i;
-    i.back = !(near > R(0.));
-    i.t = i.rank = sel(near > R(0.), near, far);
-    i.hit = (half_chord_squared > R(0.)) & (i.t > R(0.)) & (i.t <= t_max);
+    i.back = !(roots.near > R(0.));
+    i.t = i.rank = sel(roots.near > R(0.), roots.near, roots.far);
+    i.hit = roots.meets & (i.t > R(0.)) & (i.t <= t_max);
+    i.b1 = R(0.);
+    i.b2 = R(0.);
+    return i;
+}
+
+/// The cylinder of that radius about a line from the base on, `height` long, without caps; ray
+/// origin relative to the base, axis unit. Products with the axis are what lies across it, turned
+/// by a quarter: there the cylinder is a circle. A ray along the axis meets nothing.
+FN Intersection intersect_cylinder(vec3 origin, vec3 direction, vec3 axis, Real radius, Real height,
+                                   Real t_max) {
+    Roots roots = sphere_roots(cross3(origin, axis), cross3(direction, axis), radius);
+    Real from = dot3(origin, axis), slope = dot3(direction, axis);
+    Real at_near = from + roots.near * slope, at_far = from + roots.far * slope;
+    Mask near = (roots.near > R(0.)) & (at_near >= R(0.)) & (at_near <= height);
+    Mask far = (roots.far > R(0.)) & (at_far >= R(0.)) & (at_far <= height);
+    Intersection i;
+    i.back = !near;
+    i.t = i.rank = sel(near, roots.near, roots.far);
+    i.hit = roots.meets & (near | far) & (i.t <= t_max);
     i.b1 = R(0.);
     i.b2 = R(0.);
     return i;
@@ -40,7 +73,7 @@ FN Intersection intersect_sphere(vec3 origin, vec3 direction, Real radius, Real 
 /// What a hit at the end of a ray may rank at most.
 FN Real rank_of_end(Real t_max) { return t_max + t_max * (Real)BACK_DELAY; }
 
-/// A sphere or a disk, with its side of PRIMITIVE_FLIPPED.
+/// What is no triangle, with its side of PRIMITIVE_FLIPPED.
 FN Intersection ranked(Intersection i, Mask flipped) {
     i.back = (i.back & !flipped) | (flipped & !i.back);
     i.rank = sel(i.back, i.t + i.t * (Real)BACK_DELAY, i.t);
@@ -98,8 +131,8 @@ FN Intersection intersect_disk(vec3 to_centre, vec3 direction, vec3 edge_u, vec3
 // along x. It is not different along y and z, and where edges or sides have been settled the errors
 // are smaller. Near planes count as nearer by 32 u (BOX_MARGIN) of the longest side of most
 // triangles; the boxes of others, which are much larger than most, are so much larger themselves on
-// all sides, and so are those of spheres and disks. What is left are 18 u of the distance
-// (HIT_WIDENING).
+// all sides, and so are those of spheres, disks and cylinders. What is left are 18 u of the
+// distance (HIT_WIDENING).
 
 #define BOX_BEYOND 1.4551915228366852e-11f // 2^-36
 

@@ -40,6 +40,7 @@
 #include "shared/bsdf_roughdiffuse.h"
 #include "shared/bsdf_thindielectric.h"
 
+#include "shared/emitter_area_cylinder.h"
 #include "shared/emitter_area_disk.h"
 #include "shared/emitter_area_parallelogram.h"
 #include "shared/emitter_area_sphere.h"

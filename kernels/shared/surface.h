@@ -100,6 +100,33 @@ FN SurfaceInteraction surface_sphere(Primitive p, vec3 on_ray) {
     return s;
 }
 
+FN SurfaceInteraction surface_cylinder(Primitive p, vec3 on_ray) {
+    vec3 base = primitive_a(p), axis = primitive_b(p), side = primitive_c(p);
+    Real radius = absR(p.extra);
+    vec3 to = sub3(on_ray, base), unit = normalize3(axis);
+    Real along = dot3(to, axis) / dot3(axis, axis);
+    // What lies across the axis, made of products: no difference of what lies along it. Then back
+    // on the surface, as with spheres.
+    vec3 outward = normalize3(cross3(unit, cross3(to, unit)));
+    SurfaceInteraction s;
+    s.p = add3(base, add3(scale3(axis, along), scale3(outward, radius)));
+    s.error = scale3(
+        add3(abs3(base), add3(scale3(abs3(axis), absR(along)), scale3(abs3(outward), radius))),
+        GAMMA(7.f));
+    s.ng = scale3(outward, primitive_side(p));
+    s.ns = s.ng;
+    s.tangent = splat3(R(0.));
+    s.uv = v2(R(0.), R(0.));
+    Real sign = copysignR(R(1.), p.extra);
+    if (HAS(aovs)) {
+        Real y = dot3(outward, cross3(unit, side)) * sign;
+        Real phi = atan2R(y, dot3(outward, side)) * R(INV_TWO_PI);
+        s.uv = v2(sel(phi < R(0.), phi + 1.f, phi), along);
+    }
+    if (HAS(anisotropy)) s.tangent = scale3(cross3(unit, outward), sign);
+    return s;
+}
+
 /// b1, b2: coordinates of the hit along the two edges.
 FN SurfaceInteraction surface_disk(Primitive p, Real b1, Real b2) {
     vec3 centre = primitive_a(p), edge_u = primitive_b(p), edge_v = primitive_c(p);

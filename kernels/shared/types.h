@@ -25,6 +25,7 @@
 // triangle  vertex 0     vertex 1  vertex 2  1 / |cross(b - a, c - a)|, 0 where that has no length
 // sphere    centre       axis x    axis z    radius
 // disk      centre       edge u    edge v    1 / |cross(b, c)|
+// cylinder  base         axis      side      radius, below 0 where (side, up, axis) is left-handed: u runs from side to up
 #define PRIMITIVE_FIELDS(X)                                                                        \
     X(float, ax) X(float, ay) X(float, az)                                                         \
     X(float, bx) X(float, by) X(float, bz)                                                         \
@@ -33,7 +34,7 @@
     X(int, flags)                                /* its shape's */
 
 #define PRIMITIVE_KIND_MASK 3
-#define PRIMITIVE_FLIPPED 4  // the normal is reversed (sphere, disk)
+#define PRIMITIVE_FLIPPED 4  // the normal is reversed (sphere, disk, cylinder)
 #define PRIMITIVE_NORMALS 8  // its points have normals
 #define PRIMITIVE_UVS 16     // its points have texture coordinates
 
@@ -158,10 +159,11 @@ typedef struct {
 } BvhLine;
 LAYOUT(BvhLine, 64);
 
-// Up to 16 primitives of one kind, rows ax ay az bx by bz cx cy cz. Absent spheres and disks are all zero
-// with primitive -1, triangles not a number (nothing of either is ever hit). A sphere has its radius in row bx. One
+// Up to 16 primitives of one kind, rows ax ay az bx by bz cx cy cz. Absent ones are all zero
+// with primitive -1, triangles not a number (nothing of either is ever hit). A sphere has its radius in row bx; a
+// cylinder has its axis unit, its radius in row cx, its height in cy. One
 // bit of the primitives is not part of their numbers: of leaves of triangles, bit BVH_SIZE_BIT of word k is bit k of the upper
-// half of a float, the longest side of any of their boxes, rounded up; of spheres and disks it is PRIMITIVE_FLIPPED.
+// half of a float, the longest side of any of their boxes, rounded up; of others it is PRIMITIVE_FLIPPED.
 typedef struct {
     float rows[9][BVH_WIDTH];
     int primitive[BVH_WIDTH];
@@ -200,6 +202,8 @@ LAYOUT(TreeSizes, 8);
 // direction = corner + x * step_x + y * step_y, whose length along the optical axis is 1.
 // If HAS(far_camera), rays begin on a plane that is `start` from the lens: the origin is where the axis meets that, the position
 // (axis_x, axis_y) of the film, near_clip and far_clip count from there. Otherwise these are 0.
+// If HAS(orthographic) and `parallel` is 1, it is origin + x * step_x + y * step_y that moves with the position, the direction is the same unit
+// vector for all, and `start` is how far before their origins, if HAS(far_camera), the near plane is (0 otherwise).
 #define CAMERA_FIELDS(X)                                                                           \
     X(float, ox) X(float, oy) X(float, oz)    /* origin */                                         \
     X(float, dx) X(float, dy) X(float, dz)    /* corner direction */                               \
@@ -211,9 +215,10 @@ LAYOUT(TreeSizes, 8);
     X(float, axis_x) X(float, axis_y) X(float, start)                                              \
     X(float, lens_shift)                      /* start / focus_distance */                         \
     X(float, fx) X(float, fy) X(float, fz)    /* centre of the lens */                             \
-    X(float, clear_share)                     /* 1 - the near plane's distance / start */
+    X(float, clear_share)                     /* 1 - the near plane's distance / start */          \
+    X(float, parallel)
 typedef struct { CAMERA_FIELDS(FIELD_DECLARE) } CameraRecord;
-LAYOUT(CameraRecord, 116);
+LAYOUT(CameraRecord, 120);
 
 #define AOV_LIMIT 8
 
@@ -246,7 +251,7 @@ typedef struct {
     TreeSizes tree_sizes;      // of all trees
     int aov_offset[AOV_LIMIT]; // AOV_CHANNEL of each kind's first, -1: not asked for
 } RenderParams;
-LAYOUT(RenderParams, 116 + 29 * 4 + AOV_LIMIT * 4);
+LAYOUT(RenderParams, 120 + 29 * 4 + AOV_LIMIT * 4);
 
 // A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
 // Which of them a slot of the pool is, device/wave.h says.

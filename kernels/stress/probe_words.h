@@ -66,6 +66,6 @@ FN Real mask_word(Mask m) { return sel(m, R(1.), R(0.)); }
 #define TAKE_FIELD(type, name) s.name = IN_##type(i.w[at++]);
 RECORDS(RECORD_INPUT)
 MADE_OF_RECORDS(RECORD_INPUT)
-RECORD_INPUT(Camera, CAMERA_FIELDS, 29)
+RECORD_INPUT(Camera, CAMERA_FIELDS, 30)
 
 // NOLINTEND(modernize-use-using, readability-identifier-naming)

@@ -56,6 +56,10 @@ FN ProbeOut probe_plane_side(ProbeIn i) {
 FN ProbeOut probe_intersect_sphere(ProbeIn i) {
     return out_intersection(intersect_sphere(in3(i, 0), in3(i, 3), i.w[6], LANE_INFINITY));
 }
+FN ProbeOut probe_intersect_cylinder(ProbeIn i) {
+    return out_intersection(
+        intersect_cylinder(in3(i, 0), in3(i, 3), in3(i, 6), i.w[9], i.w[10], LANE_INFINITY));
+}
 FN ProbeOut probe_intersect_disk(ProbeIn i) {
     return out_intersection(
         intersect_disk(in3(i, 0), in3(i, 3), in3(i, 6), in3(i, 9), LANE_INFINITY));
@@ -92,6 +96,9 @@ FN ProbeOut probe_surface_vertex_attributes(ProbeIn i) {
 FN ProbeOut probe_surface_sphere(ProbeIn i) {
     return out_surface(surface_sphere(in_Primitive(i, 0), in3(i, 11)));
 }
+FN ProbeOut probe_surface_cylinder(ProbeIn i) {
+    return out_surface(surface_cylinder(in_Primitive(i, 0), in3(i, 11)));
+}
 FN ProbeOut probe_surface_disk(ProbeIn i) {
     vec2 d = disk_uniform(in2(i, 11));
     return out_surface(surface_disk(in_Primitive(i, 0), d.x, d.y));
@@ -109,8 +116,8 @@ FN ProbeOut probe_shading_side(ProbeIn i) {
     return put2(o, 6, v2(consistent_share(s, in3(i, 9)), softened_share(s, in3(i, 9))));
 }
 FN ProbeOut probe_camera_ray(ProbeIn i) {
-    CameraRay r = camera_ray(in_Camera(i, 0), v2(i.w[29] * R(1000.), i.w[30] * R(1000.)),
-                             disk_uniform(in2(i, 31)));
+    CameraRay r = camera_ray(in_Camera(i, 0), v2(i.w[30] * R(1000.), i.w[31] * R(1000.)),
+                             disk_uniform(in2(i, 32)));
     return put1(put3(out3(r.origin), 3, r.direction), 6, r.t_max);
 }
 
@@ -121,10 +128,12 @@ FN ProbeOut probe_camera_ray(ProbeIn i) {
     PROBE(intersect_triangle_through_corners, "pppud", 4)                                          \
     PROBE(triangle_started_on, "pppduu", 5) PROBE(plane_side, "pppduu", 2)                        \
     PROBE(intersect_sphere, "pps", 4)                                                              \
+    PROBE(intersect_cylinder, "pddss", 4)                                                          \
     PROBE(intersect_disk, "pppp", 4)                                                               \
     PROBE(box_overlap, "rrrrrrr", 2) PROBE(ray_slab, "rrr", 3)                                     \
         PROBE(leave_surface, "ppdd", 3)                                                            \
         PROBE(surface_triangle, "guu", 23) PROBE(surface_vertex_attributes, "gvuu", 23)            \
             PROBE(surface_sphere, "gp", 23) PROBE(surface_disk, "guu", 23)                         \
+            PROBE(surface_cylinder, "gp", 23)                                                      \
                 PROBE(spherical_triangle, "pppuu", 6) PROBE(camera_ray, "kuuuu", 7)          \
                     PROBE(shading_side, "dddd", 8)

@@ -99,13 +99,17 @@ std::string placed(Draws& draws) {
 }
 
 std::string shape(Draws& draws) {
-    const char* type = draws.one_of({"sphere", "rectangle", "disk", "cube", "obj", "obj"});
-    bool uniform = std::string_view(type) == "sphere"; // it refuses to be stretched
+    const std::string_view type =
+        draws.one_of({"sphere", "rectangle", "disk", "cylinder", "cube", "obj", "obj"});
     std::string text = fmt::format("<shape type=\"{}\">", type);
-    if (std::string_view(type) == "obj")
+    if (type == "obj")
         text += fmt::format("<string name=\"filename\" value=\"{}\"/>", mesh_file_name);
-    if (uniform)
+    // Two refuse to be stretched.
+    if (type == "sphere")
         text += number("radius", draws.size()) + vector("point", "center", draws);
+    else if (type == "cylinder")
+        text += number("radius", draws.size()) + vector("point", "p0", draws) +
+                vector("point", "p1", draws);
     else
         text += placed(draws);
     if (draws.chance(0.2)) text += "<boolean name=\"flip_normals\" value=\"true\"/>";
@@ -174,16 +178,19 @@ std::string integrator(int setting) {
 }
 
 std::string sensor(int setting, Draws& draws) {
-    bool lens = setting == 2, wide = setting == 1;
+    bool lens = setting == 2, wide = setting == 1, parallel = setting == 5;
+    std::string stretched = parallel ? fmt::format("<scale value=\"{}\"/>", 3 * draws.size()) : "";
     double x = draws.place(), y = draws.place();
     std::string text = fmt::format(
-        "<sensor type=\"{}\"><transform name=\"to_world\"><lookat origin=\"{}\" target=\"{}\" "
-        "up=\"0.1, 1, 0.2\"/></transform>",
-        lens ? "thinlens" : "perspective", triple(x, y, 6 * draws.size()),
-        triple(draws.between(-1, 1), 0.1, 0));
+        "<sensor type=\"{}\"><transform name=\"to_world\">{}<lookat origin=\"{}\" "
+        "target=\"{}\" up=\"0.1, 1, 0.2\"/></transform>",
+        lens       ? "thinlens"
+        : parallel ? "orthographic"
+                   : "perspective",
+        stretched, triple(x, y, 6 * draws.size()), triple(draws.between(-1, 1), 0.1, 0));
     if (lens)
         text += number("aperture_radius", draws.size()) + number("focus_distance", draws.size());
-    text += number("fov", draws.angle(draws.extreme() ? 180 : 100));
+    if (!parallel) text += number("fov", draws.angle(draws.extreme() ? 180 : 100));
     text += fmt::format("<film type=\"hdrfilm\"><integer name=\"width\" value=\"{}\"/><integer "
                         "name=\"height\" value=\"{}\"/><string name=\"pixel_format\" "
                         "value=\"rgba\"/><rfilter type=\"{}\"/></film>",

@@ -42,7 +42,7 @@ Rgb panel_truth(const Scene& scene, int tile) {
     if (!is_lamp) return shows_light(integrator) ? sky : nothing;
     const Shape& lamp = scene.shapes[object_count + static_cast<std::size_t>(tile)];
     if (shows_light(integrator)) return *lamp.radiance;
-    glm::dvec3 to(tile - 4.0, 0, view_distance(scene));
+    glm::dvec3 to(scene.camera.orthographic ? 0.0 : tile - 4.0, 0, view_distance(scene));
     const auto* ball = std::get_if<Sphere>(&lamp.geometry);
     if (integrator.kind == IntegratorKind::depth)
         return Rgb(glm::length(to) - (ball ? ball->radius : 0));

@@ -100,7 +100,7 @@ inline std::string domain_scene(const NumberParameter& p, std::string_view plugi
     if (p.tag == "sensor") {
         scene.camera = plugin;
         scene.camera_numbers = number;
-        if (p.name != "fov" && p.name != "focal_length")
+        if (p.name != "fov" && p.name != "focal_length" && plugin != "orthographic")
             scene.camera_numbers += "<float name='fov' value='10'/>";
     }
     if (p.tag == "shape") scene.shape = plugin, scene.shape_numbers = number;

@@ -116,12 +116,21 @@ inline void set_thin_lens(Setup& s, bool on) {
     s.scene.camera.aperture_radius = on ? 0.02 : 0;
     s.scene.camera.focus_distance = view_distance(s.scene);
 }
+/// On: a film that is as wide as what is seen there.
+inline void set_orthographic(Setup& s, bool on) {
+    if (!on) return;
+    Camera& camera = s.scene.camera;
+    double half = view_distance(s.scene) * std::tan(*camera.fov_degrees * std::numbers::pi / 360);
+    camera.orthographic = true;
+    camera.to_world[0] *= half, camera.to_world[1] *= half;
+}
 inline void move(Geometry& geometry, const glm::dvec3& by) {
     if (auto* mesh = std::get_if<Mesh>(&geometry))
         for (glm::dvec3& p : mesh->positions)
             p += by;
     if (auto* sphere = std::get_if<Sphere>(&geometry)) sphere->center += by;
     if (auto* disk = std::get_if<Disk>(&geometry)) disk->center += by;
+    if (auto* cylinder = std::get_if<Cylinder>(&geometry)) cylinder->base += by;
 }
 /// On: as much to be seen, from much farther away.
 inline void set_far_camera(Setup& s, bool on) {

@@ -85,6 +85,13 @@ inline Geometry example_disk(glm::dvec3 at, int which) {
     // The first shows its back.
     return Disk{at, {0.3, 0, which ? 0.1 : 0.0}, {0, 0.35, 0.1}, which == 0};
 }
+inline Geometry example_cylinder(glm::dvec3 at, int which) {
+    // The first shows its inside as well.
+    Cylinder c{at - glm::dvec3(0.1, 0.3, which ? 0.0 : 0.2), {0.2, 0.6, which ? 0.1 : 0.4}};
+    c.side = 0.25 * glm::normalize(glm::cross(c.axis, glm::dvec3(1, 0, 0.3)));
+    c.mirrored = which;
+    return c;
+}
 using ExampleShape = Geometry (*)(glm::dvec3, int);
 #define EXAMPLE_GEOMETRY(name) example_##name,
 inline constexpr std::array example_shapes{GEOMETRIES(EXAMPLE_GEOMETRY)};
@@ -131,6 +138,12 @@ inline void add_area_disk(Scene& scene, int which, Rgb power, Where where) {
     auto [at, u, v] = lamp_place(emitter_area_disk, which, where);
     add_lamp(scene, Disk{at, 0.48 * u, (which ? 0.45 : 0.48) * v}, power);
 }
+/// It fills no tile of the panel.
+inline void add_area_cylinder(Scene& scene, int which, Rgb power, Where) {
+    Cylinder c{{which ? 1.5 : -1.9, 1.9, 0.5}, {0.4, 0.1 * which, 0.2}};
+    c.side = 0.06 * glm::normalize(glm::cross(c.axis, glm::dvec3(0, 1, 0)));
+    add_lamp(scene, c, power);
+}
 inline void add_point(Scene& scene, int which, Rgb power, Where) {
     scene.emitters.push_back(PointEmitter{{which - 0.3, 1.5, 1.8}, power});
 }
@@ -176,10 +189,11 @@ inline std::vector<Light> example_lights() {
     for (std::size_t kind = 0; kind < light_kinds.size(); kind++)
         for (int which = 0; which < light_kinds[kind].examples(); which++) {
             auto n = static_cast<double>(lights.size());
-            double scale = kind < emitter_point         ? 4
-                           : kind < emitter_directional ? 1
-                           : kind <= emitter_constant   ? 0.1
-                                                        : 4 / (tiny_side * tiny_side);
+            double scale = kind < emitter_point                 ? 4
+                           : kind < emitter_directional         ? 1
+                           : kind <= emitter_constant           ? 0.1
+                           : kind == emitter_area_tiny_triangle ? 4 / (tiny_side * tiny_side)
+                                                                : 4;
             lights.push_back({kind, which, scale * Rgb(1 + 0.2 * n, 3 - 0.15 * n, 1 + which)});
         }
     return lights;

@@ -60,6 +60,18 @@ Bounds inner_bounds(const PrimitiveRecord& p) {
                 extreme[axis] += side;
                 b.grow(extreme);
             }
+    if (kind_of(p) == geometry_cylinder) {
+        f64::vec3 axis = f64::v3(u[0], u[1], u[2]);
+        f64::ShadingFrame frame = f64::frame_from_normal(f64::normalize3(axis));
+        for (int i = 0; i < 128; i++) {
+            double angle = 2 * M_PI / 64 * i;
+            f64::vec3 rim = f64::scale3(f64::add3(f64::scale3(frame.s, std::cos(angle)),
+                                                  f64::scale3(frame.t, std::sin(angle))),
+                                        p.extra);
+            Vector off{float(rim.x), float(rim.y), float(rim.z)};
+            b.grow(add(i < 64 ? a : add(a, u), off));
+        }
+    }
     if (kind_of(p) == geometry_disk)
         for (int i = 0; i < 64; i++) {
             float angle = float(i) * .098174770f;

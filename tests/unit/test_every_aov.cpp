@@ -72,6 +72,27 @@ Truth meet(const Disk& d, const Ray& r) {
     return h;
 }
 
+Truth meet(const Cylinder& c, const Ray& r) {
+    double height = glm::length(c.axis), radius = glm::length(c.side);
+    glm::dvec3 z = c.axis / height, x = c.side / radius, y = glm::cross(z, x), o = r.o - c.base;
+    auto across = [&](glm::dvec3 v) { return glm::dvec2(glm::dot(v, x), glm::dot(v, y)); };
+    glm::dvec2 from = across(o), way = across(r.d);
+    double a = glm::dot(way, way), b = glm::dot(from, way) / a,
+           left = b * b - (glm::dot(from, from) - radius * radius) / a;
+    for (double t : {-b - std::sqrt(left), -b + std::sqrt(left)}) {
+        double up = glm::dot(o + t * r.d, z);
+        if (!(left > 0) || up < 0 || up > height) continue;
+        Truth h;
+        h.t = t;
+        h.p = r.o + t * r.d;
+        glm::dvec2 n = across(h.p - c.base) / radius;
+        h.ng = h.ns = (c.flip_normals ? -1.0 : 1.0) * (n.x * x + n.y * y);
+        h.uv = {turn(c.mirrored ? -n.y : n.y, n.x), up / height};
+        return h;
+    }
+    return {};
+}
+
 Truth meet(const Mesh& m, const Ray& r) {
     Truth nearest;
     for (std::size_t k = 0; k < m.triangles.size(); k++) {
@@ -124,7 +145,7 @@ struct Aov {
 const std::array aovs{AOVS(AOV_TRUTH)};
 
 /// Two of every shape in a row, askew, each of its own colour. The flipped ones are seen from
-/// behind: the ball absorbs there and has the colour of its front, the disk has another's.
+/// behind: the ball absorbs there and has the colour of its front, others have another's.
 Scene shapes_in_a_row() {
     Scene scene;
     scene.file = "made by the test";
@@ -146,10 +167,12 @@ Scene shapes_in_a_row() {
     add(Sphere{{0.5, 0.05, 0}, 0.4, x, glm::cross(z, x), z, true}, no_material);
     add(Disk{{1.5, 0, 0}, {0.4, 0, 0.1}, {0, 0.4, 0}});
     add(Disk{{2.5, 0, 0}, {0.3, 0.2, 0}, {-0.1, 0.3, 0.2}, true}, 1);
+    add(Cylinder{{3.3, -0.3, -0.2}, {0.3, 0.5, 0.6}, {0.25, -0.15, 0}}); // one sees into it
+    add(Cylinder{{-3.3, -0.3, 0.2}, {-0.3, 0.6, 0.1}, {0.3, 0.15, 0}, true, true}, 2);
     scene.camera.to_world = glm::dmat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, 1, 0, 0),
                                        glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 0, 10, 1));
-    scene.camera.fov_degrees = 360 / std::numbers::pi * std::atan(0.3);
-    scene.film.width = scene.film.crop_width = 60;
+    scene.camera.fov_degrees = 360 / std::numbers::pi * std::atan(0.4);
+    scene.film.width = scene.film.crop_width = 80;
     scene.film.height = scene.film.crop_height = 10;
     scene.film.filter.kind = FilterKind::box;
     scene.integrator.max_depth = 1;
@@ -174,11 +197,11 @@ Ray ray_of(const Scene& scene, const DeviceScene& flat, int x, int y) {
 TEST_CASE("Every AOV of the list is what its name says", "[aov]") {
     Scene scene = shapes_in_a_row();
     DeviceScene flat = make_device_scene(scene);
-    std::array<int, 7> met{};
+    std::array<int, 9> met{};
     for (Precision precision : {Precision::single_precision, Precision::double_precision}) {
         Image image = host_render(scene, precision).image;
         for (int y = 0; y < 10; y++)
-            for (int x = 0; x < 60; x++) {
+            for (int x = 0; x < 80; x++) {
                 Truth truth = meet(scene, ray_of(scene, flat, x, y));
                 if (precision == Precision::single_precision) met[truth.shape]++;
                 CAPTURE(x, y, truth.shape);

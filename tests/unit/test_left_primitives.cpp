@@ -42,9 +42,9 @@ public:
         auto check = [&](const char* of, int slot, int left) {
             CAPTURE(of, slot, depth);
             int at = at_.at(slot);
-            bool sphere = at != none && is_sphere(at);
-            CHECK(left == (sphere ? none : at));
-            (sphere ? spheres : flat)[of]++;
+            bool round = at != none && is_round(at);
+            CHECK(left == (round ? none : at));
+            (round ? rounds : flat)[of]++;
         };
         each(paths, 0, path_slot, path_excluded,
              [&](int slot, int left) { check("path", slot, left); });
@@ -55,12 +55,14 @@ public:
     void end_wave() {}
 
     int camera = 0;
-    std::map<std::string, int> flat, spheres;
+    std::map<std::string, int> flat, rounds;
 
 private:
-    bool is_sphere(int primitive) const {
+    /// Its other side can be met from it.
+    bool is_round(int primitive) const {
         int shape = scene_.geometry.shape_of(primitive);
-        return (scene_.geometry.shapes[shape].flags & PRIMITIVE_KIND_MASK) == geometry_sphere;
+        int kind = scene_.geometry.shapes[shape].flags & PRIMITIVE_KIND_MASK;
+        return kind == geometry_sphere || kind == geometry_cylinder;
     }
     /// An int among Reals takes the first bytes of one.
     int word(const std::vector<Real>& state, int field, int entry) const {
@@ -104,7 +106,7 @@ void check_rays() {
     CHECK(device.camera == scene.film.width * scene.film.height * sizes.samples_per_wave);
     for (const char* of : {"path", "shadow ray"}) {
         CHECK(device.flat[of] > 50);
-        CHECK(device.spheres[of] > 50);
+        CHECK(device.rounds[of] > 50);
     }
 }
 

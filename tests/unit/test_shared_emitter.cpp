@@ -102,6 +102,17 @@ Meeting trace_area_sphere(const f64::Light& l, f64::vec3 p, f64::vec3 w) {
     return meet(discriminant > 0 && far > 0, p, w, near > 0 ? near : far);
 }
 
+Meeting trace_area_cylinder(const f64::Light& l, f64::vec3 p, f64::vec3 w) {
+    f64::vec3 n = f64::normalize3(light_b(l)), from = f64::sub3(p, light_a(l));
+    double fn = f64::dot3(from, n), wn = f64::dot3(w, n), a = 1 - wn * wn,
+           b = (f64::dot3(from, w) - fn * wn) / a,
+           left = b * b - (f64::dot3(from, from) - fn * fn - l.cx * l.cx) / a;
+    for (double t : {-b - std::sqrt(left), -b + std::sqrt(left)})
+        if (double z = fn + t * wn; t > 0 && z >= 0 && z <= f64::length3(light_b(l)))
+            return meet(true, p, w, t);
+    return {false, p};
+}
+
 Meeting trace_constant(const f64::Light&, f64::vec3 p, f64::vec3) { return {true, p}; }
 Meeting trace_point(const f64::Light&, f64::vec3 p, f64::vec3) { return {false, p}; }
 Meeting trace_spot(const f64::Light&, f64::vec3 p, f64::vec3) { return {false, p}; }
@@ -138,18 +149,15 @@ Cases cases_area_sphere() {
             {0, {0, 0.4, 100}, {1, 0, 0}, {}, 4 * M_PI, 1, 1, {0, 0, 0}},      // from far outside
             {0, {1, 2, 3}, {2, 0, 0}, {}, 16 * M_PI, -1, 0.5, {1.5, 1, 3.2}}}; // from inside
 }
+Cases cases_area_cylinder() {
+    return {{0, {-1, 0, 0}, {2, 0, 0}, {0.5, 0, 0}, 2 * M_PI, 1, 0.5, {0.3, 0.2, -3}},
+            {0, {0, 0.4, -2}, {0, 0, 4}, {1, 0, 0}, 8 * M_PI, -1, 1, {0.2, 0.5, 0.1}}}; // inside
+}
 Cases cases_constant() { return {{0, {}, {}, {}, 0, 0, 0.5, {1, 2, 3}}}; }
 Cases cases_point() { return {{0, {1, 2, 2}, {}, {}, 0, 0, 0.5, {0, 0, 0}}}; }
 Cases cases_spot() {
-    double cutoff = 0.6, beam = 0.4;
-    return {{0,
-             {0, 0, 4},
-             {0, 0, -1},
-             {std::cos(cutoff), cutoff, 1 / (cutoff - beam)},
-             0,
-             std::cos(beam),
-             0.5,
-             {0.5, 0, 0}}};
+    double end = 0.6, beam = 0.4, slope = 1 / (end - beam), inner = std::cos(beam);
+    return {{0, {0, 0, 4}, {0, 0, -1}, {std::cos(end), end, slope}, 0, inner, 0.5, {0.5, 0, 0}}};
 }
 Cases cases_directional() { return {{0, {}, {0, 0.6, -0.8}, {}, 0, 0, 0.5, {0, 0, 0}}}; }
 

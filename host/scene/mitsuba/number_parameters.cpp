@@ -42,7 +42,8 @@ constexpr Domain half_angle = strictly_between(0, 180).in("degrees");
 constexpr Domain wavelength = between(1e-3, 1e9).in("nanometres");
 
 constexpr std::string_view power = "a power that single precision holds in the scene's unit";
-constexpr const char* cameras = "perspective thinlens";
+constexpr const char* cameras = "perspective thinlens orthographic";
+constexpr const char* perspectives = "perspective thinlens";
 constexpr const char* samplers = "independent stratified multijitter orthogonal ldsampler "
                                  "sobol halton hammersley";
 constexpr const char* films = "hdrfilm ldrfilm mfilm tiledhdrfilm";
@@ -113,14 +114,16 @@ const NumberParameter other_parameters[] = {
     {"emitter", "spot", "beam_width", real, between(0, 180).in("degrees"), "up to cutoff_angle"},
     {"emitter", "point spot directional constant area", "sampling_weight", real, greater_than(0)},
 
-    {"shape", "sphere", "radius", real, size},
+    {"shape", "sphere cylinder", "radius", real, size},
+    {"shape", "cylinder", "p0", vector, coordinate, "not p1"},
+    {"shape", "cylinder", "p1", vector, coordinate, "not p0"},
     {"shape", "sphere", "center", vector, coordinate},
     {"shape", "serialized", "shape_index", whole, count},
-    {"shape", "obj ply serialized rectangle cube sphere disk",
+    {"shape", "obj ply serialized rectangle cube sphere disk cylinder",
      "silhouette_sampling_weight", real, any_number()},
 
-    {"sensor", cameras, "fov", real, field_of_view},
-    {"sensor", cameras, "focal_length", text, between(1e-6, 1e12).in("millimetres")},
+    {"sensor", perspectives, "fov", real, field_of_view},
+    {"sensor", perspectives, "focal_length", text, between(1e-6, 1e12).in("millimetres")},
     {"sensor", cameras, "near_clip", real, size, "less than far_clip"},
     {"sensor", cameras, "far_clip", real, size, "greater than near_clip"},
     {"sensor", cameras, "focus_distance", real, between(0, 1e100), "thinlens: 1e-20 or greater"},

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -90,10 +91,29 @@ Camera read_thin_lens(Properties& p) {
     return camera;
 }
 
+/// As in Mitsuba, a scale along z moves the near plane, and the far plane stays as far behind it.
+Camera read_orthographic(Properties& p) {
+    Camera camera;
+    camera.orthographic = true;
+    camera.to_world = p.transform("to_world");
+    read_depths(p, camera);
+    p.check();
+    const double determinant = glm::determinant(glm::dmat3(camera.to_world));
+    const double depth = glm::length(glm::dvec3(camera.to_world[2]));
+    if (!(std::abs(determinant) > 0.0) || !std::isfinite(determinant) || !std::isfinite(depth))
+        p.refuse_value("to_world", "a transform without inverse", "one that keeps volumes above 0");
+    camera.to_world[2] /= depth;
+    const double between = camera.far_clip - camera.near_clip;
+    camera.near_clip *= depth;
+    camera.far_clip = camera.near_clip + between;
+    return camera;
+}
+
 using SensorReader = Camera (*)(Properties&);
 
-constexpr PluginTable<SensorReader, 2> sensor_plugins = {
-    {{"perspective", read_perspective}, {"thinlens", read_thin_lens}}};
+constexpr PluginTable<SensorReader, 3> sensor_plugins = {{{"perspective", read_perspective},
+                                                          {"thinlens", read_thin_lens},
+                                                          {"orthographic", read_orthographic}}};
 
 /// What the samplers of Mitsuba have besides sample_count and seed.
 void read_nothing(Properties&) {}
@@ -142,6 +162,7 @@ Sampler read_sampler(const Document& document, const Object& object, Notes& note
 
 /// A direction is rounded by 2^-24: pixels less than eight times that apart run together.
 void note_narrow_pixels(Properties& p, const Camera& camera, const Film& film) {
+    if (camera.orthographic) return;
     const double field = camera.fov_degrees ? glm::radians(*camera.fov_degrees)
                                             : 2.0 * std::atan(18.0 / *camera.focal_length_mm);
     const double pixel = field / std::max(film.width, film.height);

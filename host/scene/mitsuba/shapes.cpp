@@ -144,15 +144,56 @@ Geometry read_disk(const ShapeInput& in) {
     return disk;
 }
 
+/// x, y, z of a frame about the unit vector `n` as Mitsuba's cylinder has it (Duff et al. 2017).
+glm::dmat3 frame_about(const glm::dvec3& n) {
+    const double sign = std::copysign(1.0, n.z), a = -1.0 / (sign + n.z), b = n.x * n.y * a;
+    return {glm::dvec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x),
+            glm::dvec3(b, sign + n.y * n.y * a, -n.y), n};
+}
+
+/// Refuses a transform that makes no round cylinder of one, `m` being where its x, y, z axes go.
+void check_round(Properties& p, const glm::dmat3& m) {
+    constexpr double tolerance = 1e-4; // as for spheres
+    const double x = glm::length(m[0]), y = glm::length(m[1]), z = glm::length(m[2]);
+    const auto across = [&](const glm::dvec3& a, const glm::dvec3& b) {
+        return std::abs(glm::dot(glm::normalize(a), glm::normalize(b))) < tolerance;
+    };
+    if (!(std::abs(y / x - 1.0) < tolerance) || !std::isfinite(z) || !across(m[0], m[1]) ||
+        !across(m[0], m[2]) || !across(m[1], m[2]))
+        p.refuse_value("to_world", "a transform that makes the cylinder oval or oblique",
+                       "rotation, translation, scale of all axes or along its own, mirror");
+}
+
+Geometry read_cylinder(const ShapeInput& in) {
+    Properties& p = in.p;
+    const glm::dmat4 to_world = read_to_world(p);
+    const glm::dvec3 p0 = p.vector("p0", glm::dvec3(0.0)), p1 = p.vector("p1", {0.0, 0.0, 1.0});
+    const double radius = p.number("radius", 1.0), height = glm::length(p1 - p0);
+    p.check();
+    if (!(height > 0.0)) p.refuse_value("p1", "the same as \"p0\"", "another point");
+    glm::dmat3 local = frame_about((p1 - p0) / height);
+    local[0] *= radius, local[1] *= radius, local[2] = p1 - p0;
+    const glm::dmat3 world = glm::dmat3(to_world) * local;
+    check_round(p, world);
+    Cylinder cylinder;
+    cylinder.base = glm::dvec3(to_world * glm::dvec4(p0, 1.0));
+    cylinder.side = world[0];
+    cylinder.axis = world[2];
+    cylinder.mirrored = is_mirror(to_world);
+    cylinder.flip_normals = p.boolean("flip_normals", false);
+    return cylinder;
+}
+
 using ShapeReader = Geometry (*)(const ShapeInput&);
 
-constexpr PluginTable<ShapeReader, 7> shape_plugins = {{{"obj", read_obj},
+constexpr PluginTable<ShapeReader, 8> shape_plugins = {{{"obj", read_obj},
                                                         {"ply", read_ply},
                                                         {"serialized", read_serialized},
                                                         {"rectangle", read_rectangle},
                                                         {"cube", read_cube},
                                                         {"sphere", read_sphere},
-                                                        {"disk", read_disk}}};
+                                                        {"disk", read_disk},
+                                                        {"cylinder", read_cylinder}}};
 
 } // namespace
 
