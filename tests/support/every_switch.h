@@ -122,7 +122,8 @@ inline void set_orthographic(Setup& s, bool on) {
     Camera& camera = s.scene.camera;
     double half = view_distance(s.scene) * std::tan(*camera.fov_degrees * std::numbers::pi / 360);
     camera.orthographic = true;
-    camera.to_world[0] *= half, camera.to_world[1] *= half;
+    for (int axis : {0, 1})
+        camera.to_world[axis] = half * glm::normalize(camera.to_world[axis]);
 }
 inline void move(Geometry& geometry, const glm::dvec3& by) {
     if (auto* mesh = std::get_if<Mesh>(&geometry))

@@ -219,3 +219,31 @@ TEST_CASE("Record truths: importance of lights, Conty Estevez and Kulla 2018", "
     CHECK(light_importance(node, p, n).to_point == 5);
     CHECK(light_importance(node, p, n).to_surface == 5);
 }
+
+TEST_CASE("Record truths: cylinders are lights all round", "[truths]") {
+    Scene scene = lit_scene();
+    Cylinder rod{{1, 1, 2}, {0, 3, 4}, {0.5, 0, 0}}, tube{{-2, 2, 1}, {0, 0, 2}, {0, 0.25, 0}};
+    tube.flip_normals = true;
+    scene.shapes = {scene.shapes[0], shape_of(rod, 0, 0, radiance), shape_of(tube, 0, 0, radiance)};
+    scene.emitters.clear();
+    DeviceScene device = make_device_scene(scene);
+    Placed in{device.frame};
+    double s = device.frame.scale;
+    REQUIRE(device.lights.size() == 2);
+    const LightRecord &a = device.lights[0], &b = device.lights[1];
+    CHECK((a.kind == emitter_area_cylinder && b.kind == emitter_area_cylinder));
+    check_point(a.ax, a.ay, a.az, in.at(1, 1, 2));
+    check_point(a.bx, a.by, a.bz, in.along(0, 3, 4));
+    CHECK(a.cx == near(0.5 * s));
+    CHECK((a.extra == 1 && b.extra == -1));
+    CHECK(a.area == near(2 * pi * 0.5 * 5 * s * s));
+    CHECK(b.area == near(2 * pi * 0.25 * 2 * s * s));
+    CHECK(a.pmf == near(5 / (5 + 1.0)));
+    // Seen from the side, from where most of it is seen, a rectangle; from inside all of it.
+    LightRow row{emitter_area_cylinder, {1, 2, 3}, {0, 3, 4}, {0.5, 0, 0}, radiance, 1, 5 * pi};
+    CHECK(light_bounds(row).intensity == near(10 * 5 * 1.0));
+    row.extra = -1;
+    CHECK(light_bounds(row).intensity == near(10 * 5 * pi));
+    CHECK(light_bounds(row).low.y == near(1.5));
+    CHECK(light_bounds(row).high.z == near(7.5));
+}
