@@ -93,12 +93,12 @@ TEST_CASE("Orthographic: a disk covers its own area of the film", "[camera]") {
                         z));
         const Image image = host_image(scene);
         double covered = 0, x = 0, y = 0;
-        for (std::size_t i = 0; i < image.pixel_count(); i++) {
-            const double share = value_at(image, "A", i);
-            covered += share;
-            x += share * (static_cast<double>(i % 60) + 0.5);
-            y += share * (static_cast<double>(i / 60) + 0.5);
-        }
+        for (int row = 0; row < 40; row++)
+            for (int column = 0; column < 60; column++) {
+                const double share = value_at(image, "A", image.index(column, row));
+                covered += share;
+                x += share * (column + 0.5), y += share * (row + 0.5);
+            }
         CHECK(covered / 2400 == Approx(std::acos(-1.0) * 0.49 / 6).epsilon(2e-3));
         // 20 pixels a unit; image x to the world's +x, y to its -y.
         CHECK(x / covered == Approx(30 + 6).epsilon(2e-3));

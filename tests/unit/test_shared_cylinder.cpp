@@ -5,6 +5,7 @@
 #include "tests/support/first_hits.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -170,13 +171,14 @@ TEST_CASE("Leaving a cylinder: always on the side that the ray goes to", "[spawn
 // through one end of the axis, h away (Hamilton and Morgan 1952, configuration 3).
 TEST_CASE("Cylinders: irradiance of a rod is that of the closed form", "[emitter]") {
     for (const auto& [r, l, h] : {std::array{0.5, 2.0, 1.5}, {0.1, 0.3, 4.0}, {1.0, 5.0, 3.0}}) {
-        const double L = l / r, H = h / r, X = (1 + H) * (1 + H) + L * L,
-                     Y = (1 - H) * (1 - H) + L * L;
-        const double factor = std::atan(L / std::sqrt(H * H - 1)) / (M_PI * H) +
-                              L / M_PI *
-                                  ((X - 2 * H) / (H * std::sqrt(X * Y)) *
-                                       std::atan(std::sqrt(X * (H - 1) / (Y * (H + 1)))) -
-                                   std::atan(std::sqrt((H - 1) / (H + 1))) / H);
+        // In radii.
+        const double length = l / r, far = h / r, x = (1 + far) * (1 + far) + length * length,
+                     y = (1 - far) * (1 - far) + length * length;
+        const double factor = std::atan(length / std::sqrt(far * far - 1)) / (M_PI * far) +
+                              length / M_PI *
+                                  ((x - 2 * far) / (far * std::sqrt(x * y)) *
+                                       std::atan(std::sqrt(x * (far - 1) / (y * (far + 1)))) -
+                                   std::atan(std::sqrt((far - 1) / (far + 1))) / far);
         f32::Light rod{};
         rod.kind = emitter_area_cylinder;
         rod.az = float(h), rod.bx = float(l), rod.cx = float(r);
