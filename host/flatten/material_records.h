@@ -4,11 +4,22 @@
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"
 
+#include <functional>
 #include <type_traits>
 
 namespace parhelion {
 
+/// Where a texture tells a value, that is 1.
 MaterialRecord material_record(const Bsdf& bsdf);
+
+/// The row of a texture, -1 where there is none.
+using TextureRow = std::function<int(const TextureUse&)>;
+
+#define NO_TEXTURE(type, name) -1,
+inline constexpr MaterialTexturesRecord no_textures{MATERIAL_TEXTURES_FIELDS(NO_TEXTURE)};
+
+/// Rows of the textures that tell words of the record above.
+MaterialTexturesRecord material_textures(const Bsdf& bsdf, const TextureRow& row);
 
 #define IS_ROUGHNESS(Kind, ...) || std::is_same_v<parameter::Kind, parameter::Roughness>
 #define ROUGH_BIT(name, ...) | ((false PARAMETERS_##name(IS_ROUGHNESS)) << material_##name)
@@ -17,8 +28,8 @@ inline constexpr int rough_materials = 0 MATERIALS(ROUGH_BIT);
 
 inline bool is_rough(const MaterialRecord& m) { return (rough_materials >> m.kind) & 1; }
 /// Whether its lobes lie along a surface's texture coordinates.
-inline bool is_anisotropic(const MaterialRecord& m) {
-    return is_rough(m) && m.alpha_u != m.alpha_v;
+inline bool is_anisotropic(const MaterialRecord& m, const MaterialTexturesRecord& t) {
+    return is_rough(m) && (m.alpha_u != m.alpha_v || t.alpha_u != t.alpha_v);
 }
 
 } // namespace parhelion

@@ -2,6 +2,7 @@
 // list. What an image holds is known before memory is taken for it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -11,6 +12,7 @@
 namespace parhelion {
 
 enum class TexelComponent { byte, half, single };
+inline constexpr std::array<std::string_view, 3> texel_component_names{"byte", "half", "float"};
 
 /// Texels in rows, the top row first; components of a texel lie side by side (R G B, or one that
 /// stands for all three), in the machine's order of bytes.

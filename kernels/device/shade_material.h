@@ -6,6 +6,7 @@
 #include "device/energy_table.h"
 #include "device/notes.h"
 #include "device/shade_work.h"
+#include "device/texture.h"
 
 typedef struct {
     Mask lanes;        // on a side that has a material
@@ -39,7 +40,9 @@ FN Shading shading_at(ShadeWork w, PathVertex v) {
         row = sel(s.wo.z < R(0.), shape_of(w.scene, v.primitive).material_back, row);
     s.lanes = v.hit & (row >= 0);
     row = sel(row >= 0, row, front);
-    s.material = load_Material(w.scene.materials, sel(row >= 0, row, (Int)0));
+    row = sel(row >= 0, row, (Int)0);
+    s.material = load_Material(w.scene.materials, row);
+    if (HAS(textures)) s.material = resolve_textures(w.scene, row, v.surface.uv, v.hit, s.material);
     return s;
 }
 

@@ -82,6 +82,10 @@ inline std::string domain_scene(const NumberParameter& p, std::string_view plugi
     std::string number = number_element(p, value) + companions(plugin, p.name) + beside;
     std::string whole = fmt::format("<{0} type='{1}'>{2}</{0}>", p.tag, plugin, number);
     if (p.tag == "bsdf") scene.bsdf = whole;
+    if (p.tag == "texture")
+        scene.bsdf = fmt::format("<bsdf type='diffuse'><texture name='reflectance' type='{}'>{}"
+                                 "</texture></bsdf>",
+                                 plugin, number);
     if (p.tag == "integrator") scene.integrator = whole;
     if (p.tag == "sampler") scene.sampler = whole;
     if (p.tag == "rfilter") scene.filter = whole;

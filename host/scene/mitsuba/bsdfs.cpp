@@ -62,8 +62,9 @@ double read_index(Properties& p, std::string_view name, double missing) {
 
 // One function a kind of parameter: its value, `missing` where the file has none.
 
-Rgb read(parameter::Color, Properties& p, std::string_view name, const Rgb& missing) {
-    return p.color(name, missing, SpectrumUse::reflectance);
+Textured<Rgb> read(parameter::Color, Properties& p, std::string_view name,
+                   const Textured<Rgb>& missing) {
+    return p.textured_color(name, missing, SpectrumUse::reflectance);
 }
 
 double read(parameter::Number, Properties& p, std::string_view name, double missing) {
@@ -93,8 +94,8 @@ parameter::ComplexIndex::Value read(parameter::ComplexIndex, Properties& p, std:
                                     parameter::ComplexIndex::Value index) {
     const bool spectra = p.has("eta") || p.has("k");
     if (!p.has("material")) {
-        index.eta = p.color("eta", index.eta, SpectrumUse::unbounded);
-        index.k = p.color("k", index.k, SpectrumUse::unbounded);
+        index.eta = p.textured_color("eta", index.eta, SpectrumUse::unbounded);
+        index.k = p.textured_color("k", index.k, SpectrumUse::unbounded);
         return index;
     }
     if (spectra)
@@ -115,21 +116,30 @@ parameter::Roughness::Value read(parameter::Roughness, Properties& p, std::strin
         p.note("sample_visible", "\"sample_visible\" is taken as true; only the noise differs");
     const bool split = p.has("alpha_u") || p.has("alpha_v");
     if (!split) {
-        const double alpha = p.number("alpha", missing.alpha_u);
+        const Textured<double> alpha = p.textured_number("alpha", missing.alpha_u);
         return {distribution, alpha, alpha};
     }
     if (p.has("alpha"))
         p.refuse_value("alpha", "given together with \"alpha_u\" or \"alpha_v\"",
                        "\"alpha\", or both of the others");
-    const double alpha_u = p.required_number("alpha_u");
-    return {distribution, alpha_u, p.required_number("alpha_v")};
+    const auto required = [&](const char* name) {
+        return p.has(name) ? p.textured_number(name, {}) : p.required_number(name);
+    };
+    const Textured<double> alpha_u = required("alpha_u");
+    return {distribution, alpha_u, required("alpha_v")};
 }
 
 /// Measured in white furnaces (docs/accuracy.md): where the energy table is too coarse. `rougher`
 /// is what the larger roughness may be.
-void note_compensation(Properties& p, const parameter::Roughness::Value& r, double rougher) {
+void note_compensation(Properties& p, const auto& b, double rougher) {
+    const parameter::Roughness::Value& r = b.roughness;
+    if (!b.energy_compensation) return;
+    if (has_textured_lobe(b)) {
+        p.note("", "there is no energy compensation where roughness or index are textures");
+        return;
+    }
     constexpr double ratio = 10.0;
-    const auto [low, high] = std::minmax(r.alpha_u, r.alpha_v);
+    const auto [low, high] = std::minmax(r.alpha_u.constant, r.alpha_v.constant);
     if (low == high || (high <= ratio * low && high <= rougher)) return;
     p.note("alpha_u", fmt::format("energy compensation is off by more than 0.3 % where "
                                   "\"alpha_u\" and \"alpha_v\" differ more than {} times, or one "
@@ -140,13 +150,9 @@ void note_compensation(Properties& p, const parameter::Roughness::Value& r, doub
 /// What is said of several parameters of a kind together; of most nothing.
 void note_together(const Properties&, const auto&) {}
 
-void note_together(Properties& p, const RoughConductorBsdf& b) {
-    if (b.energy_compensation) note_compensation(p, b.roughness, 1.0);
-}
+void note_together(Properties& p, const RoughConductorBsdf& b) { note_compensation(p, b, 1.0); }
 
-void note_together(Properties& p, const RoughDielectricBsdf& b) {
-    if (b.energy_compensation) note_compensation(p, b.roughness, 0.3);
-}
+void note_together(Properties& p, const RoughDielectricBsdf& b) { note_compensation(p, b, 0.3); }
 
 #define READ_PARAMETER(Kind, name, ...) b.name = read(parameter::Kind{}, p, #name, b.name);
 #define BSDF_READER(name, Name, ...)                                                               \

@@ -3,6 +3,7 @@
 
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
+#include "host/scene/mitsuba/textures.h"
 #include "host/scene/mitsuba/xml_file.h"
 #include "host/scene/text.h"
 
@@ -145,6 +146,8 @@ void SceneBuilder::check_definition(const Child& child, const Object& object) {
         static_cast<void>(read_filter(document_, object, scene_.notes));
     else if (object.tag == "sampler")
         static_cast<void>(read_sampler(document_, object, scene_.notes));
+    else if (object.tag == "texture")
+        check_texture(document_, object, scene_.notes);
     else
         refuse(child.location, object.tag + " plugin " + in_quotes(object.plugin) +
                                    " is not supported (<scene> holds bsdf, emitter, integrator, "

@@ -155,6 +155,34 @@ void Reader::read_element(const Source& source, pugi::xml_node node, std::size_t
     if (tag != "transform") refuse_content(source.xml, node);
 }
 
+/// The number of that name, which is taken away; `missing` where there is none.
+double take_number(Object& object, std::string_view name, double missing, SourceLocation& place) {
+    const auto found = std::find_if(object.parameters.begin(), object.parameters.end(),
+                                    [&](const Parameter& p) { return p.name == name; });
+    if (found == object.parameters.end()) return missing;
+    const auto* const real = std::get_if<double>(&found->value);
+    const auto* const whole = std::get_if<std::int64_t>(&found->value);
+    if (!real && !whole) return missing; // refused as a parameter that there is not
+    const double number = real ? *real : static_cast<double>(*whole);
+    place = found->location;
+    object.parameters.erase(found);
+    return number;
+}
+
+/// What textures of older versions have in place of to_uv: moved first, then scaled.
+void upgrade_texture(Object& object) {
+    SourceLocation place;
+    const double u = take_number(object, "uoffset", 0.0, place);
+    const double v = take_number(object, "voffset", 0.0, place);
+    const double scale_u = take_number(object, "uscale", 1.0, place);
+    const double scale_v = take_number(object, "vscale", 1.0, place);
+    if (place.file.empty()) return;
+    glm::dmat4 to_uv(1.0);
+    to_uv[0][0] = scale_u, to_uv[1][1] = scale_v;
+    to_uv[3][0] = scale_u * u, to_uv[3][1] = scale_v * v;
+    object.parameters.push_back({"to_uv", "transform", place, to_uv});
+}
+
 std::size_t Reader::read_object(const Source& source, pugi::xml_node node, int nesting) {
     const bool scene = std::string_view(node.name()) == "scene";
     if (scene && !document_.objects.empty())
@@ -182,6 +210,8 @@ std::size_t Reader::read_object(const Source& source, pugi::xml_node node, int n
     document_.objects.push_back(std::move(object));
     for (const pugi::xml_node child : node.children())
         read_element(source, child, index, nesting + 1);
+    if (Object& read = document_.objects[index]; source.before_2_0 && read.tag == "texture")
+        upgrade_texture(read);
     return index;
 }
 

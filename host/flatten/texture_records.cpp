@@ -1,0 +1,244 @@
+// The textures of a scene as the device reads them.
+#include "host/flatten/texture_records.h"
+
+#include "host/flatten/material_records.h"
+#include "host/flatten/texture_bounds.h"
+#include "host/image/srgb.h"
+#include "host/parallel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <utility>
+
+namespace parhelion {
+namespace {
+
+/// Rows of textures as parameters name them.
+class Rows {
+public:
+    int operator()(const TextureUse& use) {
+        if (!use) return -1;
+        for (std::size_t row = 0; row < textures_.size(); row++)
+            if (textures_[row] == use.texture || *textures_[row] == *use.texture)
+                return use_row(row, use);
+        textures_.push_back(use.texture);
+        return use_row(textures_.size() - 1, use);
+    }
+    const std::vector<std::shared_ptr<const Texture>>& textures() const { return textures_; }
+    const std::vector<std::pair<int, TextureUse>>& uses() const { return uses_; }
+
+private:
+    int use_row(std::size_t row, const TextureUse& use) {
+        uses_.emplace_back(static_cast<int>(row), use);
+        return static_cast<int>(row);
+    }
+
+    std::vector<std::shared_ptr<const Texture>> textures_;
+    std::vector<std::pair<int, TextureUse>> uses_;
+};
+
+/// By reference, lest a std::function copy them.
+TextureRow row_of(Rows& rows) {
+    return [&rows](const TextureUse& use) { return rows(use); };
+}
+
+/// Views of geometry look at no material.
+bool looks_at_materials(const Scene& scene) {
+    const Integrator& integrator = scene.integrator;
+    bool shades =
+        integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct;
+    return shades || std::any_of(integrator.aovs.begin(), integrator.aovs.end(),
+                                 [](const AovRequest& a) { return a.kind == "albedo"; });
+}
+
+/// Values of 16 bits of sRGB become linear when they are read: floats have room for them.
+bool decoded_when_read(const BitmapTexture& bitmap) {
+    const TexelLayout& layout = bitmap.source.layout;
+    return layout.srgb && !bitmap.raw && layout.component == TexelComponent::single;
+}
+
+/// An image that several textures may look at.
+struct ImageTexels {
+    const BitmapTexture* bitmap;
+    std::size_t first; ///< word
+
+    bool holds(const BitmapTexture& other) const {
+        return bitmap->source.name == other.source.name &&
+               bitmap->source.layout == other.source.layout &&
+               decoded_when_read(*bitmap) == decoded_when_read(other);
+    }
+    std::size_t words() const { return (bitmap->source.layout.bytes() + 3) / 4; }
+    std::span<std::byte> in(LargeVector<int>& texels) const {
+        return std::as_writable_bytes(std::span(texels))
+            .subspan(4 * first, bitmap->source.layout.bytes());
+    }
+};
+
+const BitmapTexture* bitmap_of(const Texture& texture) {
+    return std::get_if<BitmapTexture>(&texture.kind);
+}
+
+/// One behind the other.
+std::vector<ImageTexels> place_images(const Scene& scene, const Rows& rows) {
+    std::vector<ImageTexels> images;
+    std::size_t end = 0;
+    for (const auto& texture : rows.textures()) {
+        const BitmapTexture* bitmap = bitmap_of(*texture);
+        auto same = [&](const ImageTexels& image) { return image.holds(*bitmap); };
+        if (!bitmap || std::any_of(images.begin(), images.end(), same)) continue;
+        images.push_back({bitmap, end});
+        end += images.back().words();
+    }
+    constexpr std::size_t most = std::numeric_limits<int>::max();
+    if (end > most)
+        throw InputError(fmt::format("{}: its images hold {} bytes; the device reads at most {}",
+                                     scene.file, 4 * end, 4 * most));
+    return images;
+}
+
+void read_image(const ImageTexels& image, LargeVector<int>& texels) {
+    std::span<std::byte> bytes = image.in(texels);
+    image.bitmap->source.read(bytes);
+    if (!decoded_when_read(*image.bitmap)) return;
+    for (std::size_t at = 0; at < bytes.size(); at += sizeof(float)) {
+        float value = 0;
+        std::memcpy(&value, &bytes[at], sizeof value);
+        value = static_cast<float>(srgb_decode(value));
+        std::memcpy(&bytes[at], &value, sizeof value);
+    }
+}
+
+/// Of several that are broken the first is told of.
+void read_images(const std::vector<ImageTexels>& images, LargeVector<int>& texels) {
+    if (images.empty()) return;
+    // Components are read three at a time, of a last grey texel as well.
+    constexpr std::size_t spare = 3;
+    std::size_t words = images.back().first + images.back().words();
+    texels.resize(words + spare);
+    std::fill_n(texels.end() - spare, spare, 0);
+    std::vector<std::exception_ptr> errors(images.size());
+    parallel_for(images.size(), [&](std::size_t n) {
+        try {
+            read_image(images[n], texels);
+        } catch (...) {
+            errors[n] = std::current_exception();
+        }
+    });
+    for (const std::exception_ptr& error : errors)
+        if (error) std::rethrow_exception(error);
+}
+
+int form_of(const BitmapTexture& bitmap) {
+    const TexelLayout& layout = bitmap.source.layout;
+    bool linear = bitmap.raw || !layout.srgb;
+    return texture_bitmap | (bitmap.filter == TextureFilter::nearest ? TEXTURE_NEAREST : 0) |
+           static_cast<int>(bitmap.wrap) << TEXTURE_WRAP_SHIFT |
+           (layout.channels == 1 ? TEXTURE_GREY : 0) |
+           static_cast<int>(layout.component) << TEXTURE_COMPONENT_SHIFT |
+           (linear ? TEXTURE_LINEAR : 0);
+}
+
+void set_kind(TextureRecord& t, const BitmapTexture& bitmap,
+              const std::vector<ImageTexels>& images) {
+    t.form = form_of(bitmap);
+    t.width = bitmap.source.layout.width;
+    t.height = bitmap.source.layout.height;
+    for (const ImageTexels& image : images)
+        if (image.holds(bitmap)) t.first = static_cast<int>(image.first);
+}
+
+void set_kind(TextureRecord& t, const CheckerboardTexture& board, const std::vector<ImageTexels>&) {
+    t.form = texture_checkerboard;
+    const Rgb &a = board.color0, &b = board.color1;
+    t.r0 = static_cast<float>(a.r), t.g0 = static_cast<float>(a.g), t.b0 = static_cast<float>(a.b);
+    t.r1 = static_cast<float>(b.r), t.g1 = static_cast<float>(b.g), t.b1 = static_cast<float>(b.b);
+}
+
+TextureRecord texture_record(const Texture& texture, const std::vector<ImageTexels>& images) {
+    TextureRecord t{};
+    const glm::dmat3& m = texture.to_uv;
+    t.ux = static_cast<float>(m[0][0]), t.vx = static_cast<float>(m[0][1]);
+    t.uy = static_cast<float>(m[1][0]), t.vy = static_cast<float>(m[1][1]);
+    t.ut = static_cast<float>(m[2][0]), t.vt = static_cast<float>(m[2][1]);
+    std::visit([&](const auto& kind) { set_kind(t, kind, images); }, texture.kind);
+    return t;
+}
+
+std::string name_of(const Texture& texture) {
+    const BitmapTexture* bitmap = bitmap_of(texture);
+    return bitmap ? bitmap->source.name : "a checkerboard";
+}
+
+/// Values that a parameter would be refused with as constants.
+void check_values(const Rows& rows, const std::vector<ImageTexels>& images, DeviceScene& out) {
+    std::vector<ValueBounds> bounds;
+    for (const auto& texture : rows.textures()) {
+        std::span<const std::byte> texels;
+        if (const BitmapTexture* bitmap = bitmap_of(*texture))
+            for (const ImageTexels& image : images)
+                if (image.holds(*bitmap)) texels = image.in(out.texels);
+        bounds.push_back(texture_bounds(*texture, texels));
+    }
+    for (const auto& [row, use] : rows.uses()) {
+        const auto [lowest, highest] = bounds[row];
+        if (placed(use.domain, lowest) && placed(use.domain, highest)) continue;
+        throw InputError(fmt::format("{}: {} gets values from {} to {} of {} (accepted: {})",
+                                     use.location.to_string(), use.parameter, lowest, highest,
+                                     name_of(*use.texture), accepted_text(use.domain)));
+    }
+}
+
+bool has_bytes(const ImageTexels& image) {
+    return image.bitmap->source.layout.component == TexelComponent::byte;
+}
+
+} // namespace
+
+std::vector<std::shared_ptr<const Texture>> textures_of(const Scene& scene) {
+    Rows rows;
+    for (const Material& material : scene.materials)
+        material_textures(material.bsdf, row_of(rows));
+    return rows.textures();
+}
+
+void add_textures(const Scene& scene, DeviceScene& out) {
+    out.material_textures.assign(scene.materials.size(), no_textures);
+    if (!looks_at_materials(scene)) return;
+    Rows rows;
+    for (std::size_t i = 0; i < scene.materials.size(); i++)
+        out.material_textures[i] = material_textures(scene.materials[i].bsdf, row_of(rows));
+    const std::vector<ImageTexels> images = place_images(scene, rows);
+    read_images(images, out.texels);
+    check_values(rows, images, out);
+    for (const auto& texture : rows.textures())
+        out.textures.push_back(texture_record(*texture, images));
+    if (std::any_of(images.begin(), images.end(), has_bytes)) out.byte_values = make_byte_values();
+}
+
+std::vector<float> make_byte_values() {
+    std::vector<float> values(BYTE_VALUES);
+    for (int byte = 0; byte < 256; byte++) {
+        values[byte] = static_cast<float>(srgb_decode(byte / 255.0));
+        values[256 + byte] = static_cast<float>(byte / 255.0);
+    }
+    return values;
+}
+
+std::size_t count_anisotropic(const DeviceScene& records) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < records.materials.size(); i++)
+        count += is_anisotropic(records.materials[i], records.material_textures[i]) ? 1 : 0;
+    return count;
+}
+
+bool asks_for_uvs(const Scene& scene) {
+    const auto& aovs = scene.integrator.aovs;
+    return std::any_of(aovs.begin(), aovs.end(),
+                       [](const AovRequest& a) { return a.kind == "uv"; });
+}
+
+} // namespace parhelion

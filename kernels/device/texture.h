@@ -1,0 +1,273 @@
+// Looking up textures, and what they tell of materials.
+#ifndef PARHELION_TEXTURE_H
+#define PARHELION_TEXTURE_H
+
+#include "device/scene_tables.h"
+
+// Texels lie at any byte.
+typedef unsigned int AnyWord __attribute__((aligned(1), may_alias));
+typedef unsigned short AnyHalf __attribute__((aligned(1), may_alias));
+typedef union {
+    Uint lanes;
+    unsigned int at[LANES];
+} UintLanes;
+
+/// The bits of a texel's three components, in each lane from its own byte on: that many bytes
+/// behind word `first`.
+typedef struct {
+    UintLanes r, g, b;
+} TexelBits;
+
+FN ulong texel_address(IntLanes first, UintLanes byte, int lane) {
+    return 4 * (ulong)(uint)first.at[lane] + byte.at[lane];
+}
+
+FN TexelBits load_bytes(global const int* texels, IntLanes first, UintLanes byte) {
+    TexelBits t;
+    for (int k = 0; k < LANES; k++) {
+        // A byte more than a texel has: there are words behind the last.
+        uint word = AT_BYTE(global const AnyWord, texels, texel_address(first, byte, k));
+        t.r.at[k] = word & 255u;
+        t.g.at[k] = word >> 8 & 255u;
+        t.b.at[k] = word >> 16 & 255u;
+    }
+    return t;
+}
+
+/// Words of T, three of them: of a grey texel two stand behind it, and are not used.
+#define LOAD_COMPONENTS(name, T)                                                                   \
+    FN TexelBits name(global const int* texels, IntLanes first, UintLanes byte) {                  \
+        TexelBits t;                                                                               \
+        for (int k = 0; k < LANES; k++) {                                                          \
+            ulong at = texel_address(first, byte, k);                                              \
+            t.r.at[k] = AT_BYTE(global const T, texels, at);                                       \
+            t.g.at[k] = AT_BYTE(global const T, texels, at + sizeof(T));                           \
+            t.b.at[k] = AT_BYTE(global const T, texels, at + 2 * sizeof(T));                       \
+        }                                                                                          \
+        return t;                                                                                  \
+    }
+LOAD_COMPONENTS(load_halves, AnyHalf)
+LOAD_COMPONENTS(load_singles, AnyWord)
+
+/// IEEE 754 binary16, finite.
+FN Real value_of_half(Uint bits) {
+    Int exponent = asInt(bits >> 10 & 31u), mantissa = asInt(bits & 1023u);
+    Mask small = exponent == 0;
+    Real value =
+        toReal(mantissa + sel(small, (Int)0, (Int)1024)) * R(5.9604644775390625e-8); // 2^-24
+    Int doubled = sel(small, (Int)0, exponent - 1);
+    value = value * toReal((Int)1 << (doubled & 15)) * sel(doubled > 15, R(65536.), R(1.));
+    return sel((bits & 32768u) != 0u, -value, value);
+}
+
+#ifdef __OPENCL_C_VERSION__
+FN Real value_of_single(Uint bits) { return asReal(bits); }
+#else
+FN Real value_of_single(Uint bits) { return as_float(asInt(bits)); }
+#endif
+
+/// Where an image is looked up.
+typedef struct {
+    Texture t;
+    Mask bytes, halves, singles; // lanes whose texels have such components
+    Int texel_bytes;
+} Image;
+
+FN Image image_of(Texture t, Mask wanted) {
+    Image i;
+    Int component = TEXTURE_COMPONENT(t.form);
+    i.t = t;
+    i.bytes = wanted & (component == 0);
+    i.halves = wanted & (component == 1);
+    i.singles = wanted & (component == 2);
+    i.texel_bytes = sel((t.form & TEXTURE_GREY) != 0, (Int)1, (Int)3) << component;
+    return i;
+}
+
+/// Lanes that are not `mine` read what the first texture begins with.
+FN Uint byte_for(Mask mine, Uint byte) { return sel(mine, byte, (Uint)0u); }
+
+FN vec3 texel_at(SceneTables scene, Image i, Int x, Int y) {
+    vec3 color = splat3(R(0.));
+    UintLanes byte;
+    Uint at = asUint(y * i.t.width + x) * asUint(i.texel_bytes);
+    if (HAS(texels_byte) && someLane(i.bytes)) {
+        byte.lanes = byte_for(i.bytes, at);
+        TexelBits bits =
+            load_bytes(scene.texels, one_by_one(sel(i.bytes, i.t.first, (Int)0)), byte);
+        Int table = sel((i.t.form & TEXTURE_LINEAR) != 0, (Int)256, (Int)0);
+        vec3 found = v3(gather(scene.byte_values, asInt(bits.r.lanes) + table),
+                        gather(scene.byte_values, asInt(bits.g.lanes) + table),
+                        gather(scene.byte_values, asInt(bits.b.lanes) + table));
+        color = sel3(i.bytes, found, color);
+    }
+    if (HAS(texels_half) && someLane(i.halves)) {
+        byte.lanes = byte_for(i.halves, at);
+        TexelBits bits =
+            load_halves(scene.texels, one_by_one(sel(i.halves, i.t.first, (Int)0)), byte);
+        color = sel3(i.halves,
+                     v3(value_of_half(bits.r.lanes), value_of_half(bits.g.lanes),
+                        value_of_half(bits.b.lanes)),
+                     color);
+    }
+    if (HAS(texels_single) && someLane(i.singles)) {
+        byte.lanes = byte_for(i.singles, at);
+        TexelBits bits =
+            load_singles(scene.texels, one_by_one(sel(i.singles, i.t.first, (Int)0)), byte);
+        color = sel3(i.singles,
+                     v3(value_of_single(bits.r.lanes), value_of_single(bits.g.lanes),
+                        value_of_single(bits.b.lanes)),
+                     color);
+    }
+    return sel3((i.t.form & TEXTURE_GREY) != 0, splat3(color.x), color);
+}
+
+/// One axis of an image: the two texels about a place, and how far it is from the first's centre to
+/// the second's.
+typedef struct {
+    Int low, high;
+    Real along;
+} TexelPair;
+
+/// The number of a texel that may lie beyond the border by one; of any number one that there is.
+FN Int texel_within(Int n, Int size, Mask repeated) {
+    Int before = sel(repeated, size - 1, (Int)0), behind = sel(repeated, (Int)0, size - 1);
+    return sel(n < 0, before, sel(n >= size, behind, n));
+}
+
+/// x: 0 to 1 across the image.
+FN TexelPair texel_pair(Real x, Int size, Int form) {
+    Mask repeated = TEXTURE_WRAP(form) == 0, mirrored = TEXTURE_WRAP(form) == 1;
+    Mask nearest = (form & TEXTURE_NEAREST) != 0;
+    Real turn = x - R(2.) * floorR(x * R(.5)); // 0 to 2
+    Real within = sel(repeated, x - floorR(x), sel(turn > R(1.), R(2.) - turn, turn));
+    Real bordered = sel(x < R(0.), R(0.), sel(x > R(1.), R(1.), x));
+    within = sel(repeated | mirrored, within, bordered);
+    Real place = within * toReal(size) - sel(nearest, R(0.), R(.5));
+    Real floor_of = floorR(place);
+    TexelPair p;
+    Int low = toInt(floor_of);
+    p.low = texel_within(low, size, repeated);
+    p.high = texel_within(low + 1, size, repeated);
+    // Nothing of the second where they are not interpolated; coordinates that are not finite show.
+    p.along = sel(nearest, place * R(0.), place - floor_of);
+    return p;
+}
+
+/// a where along is 0, and wherever both are the same.
+FN vec3 between3(vec3 a, vec3 b, Real along) { return add3(a, scale3(sub3(b, a), along)); }
+
+FN vec3 bitmap_color(SceneTables scene, Texture t, vec2 uv, Mask wanted) {
+    Image i = image_of(t, wanted);
+    TexelPair x = texel_pair(uv.x, t.width, t.form), y = texel_pair(uv.y, t.height, t.form);
+    vec3 above =
+        between3(texel_at(scene, i, x.low, y.low), texel_at(scene, i, x.high, y.low), x.along);
+    vec3 below =
+        between3(texel_at(scene, i, x.low, y.high), texel_at(scene, i, x.high, y.high), x.along);
+    return between3(above, below, y.along);
+}
+
+/// Whether the place is on a square of the first colour; what lies on a border belongs to the
+/// square before it.
+FN Mask checkerboard_first(vec2 uv) {
+    Mask right = uv.x - floorR(uv.x) > R(.5), below = uv.y - floorR(uv.y) > R(.5);
+    return !((right & !below) | (below & !right));
+}
+FN vec3 checkerboard_color(Texture t, Mask first) {
+    return sel3(first, v3(t.r0, t.g0, t.b0), v3(t.r1, t.g1, t.b1));
+}
+
+FN Texture load_wanted_texture(SceneTables scene, Int row, Mask wanted) {
+    return load_Texture(scene.textures, sel(wanted, row, (Int)0));
+}
+FN vec2 texture_place(Texture t, vec2 uv) {
+    return v2(t.ux * uv.x + t.uy * uv.y + t.ut, t.vx * uv.x + t.vy * uv.y + t.vt);
+}
+
+/// The colour of texture `row` at coordinates of the surface; lanes that are not wanted get some
+/// numbers.
+FN vec3 texture_color(SceneTables scene, Int row, vec2 uv, Mask wanted) {
+    Texture t = load_wanted_texture(scene, row, wanted);
+    vec2 place = texture_place(t, uv);
+    vec3 color = splat3(R(0.));
+    if (HAS(texture_bitmap)) {
+        Mask mine = wanted & (TEXTURE_KIND(t.form) == texture_bitmap);
+        if (someLane(mine)) color = bitmap_color(scene, t, place, mine);
+    }
+    if (HAS(texture_checkerboard)) {
+        Mask mine = TEXTURE_KIND(t.form) == texture_checkerboard;
+        color = sel3(mine, checkerboard_color(t, checkerboard_first(place)), color);
+    }
+    return color;
+}
+
+/// Of linear sRGB, as Mitsuba weighs it.
+FN Real luminance(vec3 c) { return R(0.212671) * c.x + R(0.715160) * c.y + R(0.072169) * c.z; }
+
+/// The number that texture `row` is there: of a colour its luminance. A checkerboard is the other
+/// way about than its colours are, as in Mitsuba 3 (eval_1 and eval of its `checkerboard`).
+FN Real texture_number(SceneTables scene, Int row, vec2 uv, Mask wanted) {
+    Texture t = load_wanted_texture(scene, row, wanted);
+    vec2 place = texture_place(t, uv);
+    Real number = R(0.);
+    if (HAS(texture_bitmap)) {
+        Mask mine = wanted & (TEXTURE_KIND(t.form) == texture_bitmap);
+        if (someLane(mine)) {
+            vec3 color = bitmap_color(scene, t, place, mine);
+            number = sel((t.form & TEXTURE_GREY) != 0, color.x, luminance(color));
+        }
+    }
+    if (HAS(texture_checkerboard)) {
+        Mask mine = TEXTURE_KIND(t.form) == texture_checkerboard;
+        vec3 color = checkerboard_color(t, !checkerboard_first(place));
+        number = sel(mine, luminance(color), number);
+    }
+    return number;
+}
+
+/// Less roughness is smooth to single precision, as for constants.
+#define LEAST_ROUGHNESS R(1e-9)
+
+FN Real textured_roughness(SceneTables scene, Int row, vec2 uv, Mask hit, Real otherwise) {
+    Mask wanted = hit & (row >= 0);
+    Real alpha = maxR(texture_number(scene, row, uv, wanted), LEAST_ROUGHNESS);
+    return sel(wanted, alpha, otherwise);
+}
+
+FN vec3 textured_color(SceneTables scene, Int row, vec2 uv, Mask hit, vec3 otherwise) {
+    Mask wanted = hit & (row >= 0);
+    if (!someLane(wanted)) return otherwise;
+    return sel3(wanted, texture_color(scene, row, uv, wanted), otherwise);
+}
+
+/// The material of row `row` of the materials, its words as textures tell them at the lanes that
+/// have hit something.
+FN Material resolve_textures(SceneTables scene, Int row, vec2 uv, Mask hit, Material m) {
+    MaterialTextures t = load_MaterialTextures(scene.material_textures, row);
+    if (HAS(textured_reflectance)) {
+        vec3 c = textured_color(scene, t.reflectance, uv, hit, splat3(R(1.)));
+        m.r = m.r * c.x, m.g = m.g * c.y, m.b = m.b * c.z;
+        // A rough metal's average reflectance stands in place of a transmittance.
+        if (HAS(bsdf_roughconductor)) {
+            vec3 scale = sel3(m.kind == material_roughconductor, c, splat3(R(1.)));
+            m.tr = m.tr * scale.x, m.tg = m.tg * scale.y, m.tb = m.tb * scale.z;
+        }
+    }
+    if (HAS(textured_transmittance)) {
+        vec3 c = textured_color(scene, t.transmittance, uv, hit, material_transmittance(m));
+        m.tr = c.x, m.tg = c.y, m.tb = c.z;
+    }
+    if (HAS(textured_index)) {
+        vec3 eta = textured_color(scene, t.eta, uv, hit, material_eta(m));
+        vec3 k = textured_color(scene, t.k, uv, hit, material_k(m));
+        m.er = eta.x, m.eg = eta.y, m.eb = eta.z;
+        m.kr = k.x, m.kg = k.y, m.kb = k.z;
+    }
+    if (HAS(textured_roughness)) {
+        m.alpha_u = textured_roughness(scene, t.alpha_u, uv, hit, m.alpha_u);
+        m.alpha_v = textured_roughness(scene, t.alpha_v, uv, hit, m.alpha_v);
+    }
+    return m;
+}
+
+#endif
