@@ -12,32 +12,45 @@
 #include <cstring>
 #include <exception>
 #include <limits>
+#include <map>
+#include <string>
 #include <utility>
 
 namespace parhelion {
 namespace {
 
-/// Rows of textures as parameters name them.
+const BitmapTexture* bitmap_of(const Texture& texture) {
+    return std::get_if<BitmapTexture>(&texture.kind);
+}
+
+std::string name_of(const Texture& texture) {
+    const BitmapTexture* bitmap = bitmap_of(texture);
+    return bitmap ? bitmap->source.name : "a checkerboard";
+}
+
+/// Rows of textures as parameters name them: the same texture has one row, whoever made it.
 class Rows {
 public:
     int operator()(const TextureUse& use) {
         if (!use) return -1;
-        for (std::size_t row = 0; row < textures_.size(); row++)
-            if (textures_[row] == use.texture || *textures_[row] == *use.texture)
-                return use_row(row, use);
-        textures_.push_back(use.texture);
-        return use_row(textures_.size() - 1, use);
+        std::vector<int>& alike = by_name_[name_of(*use.texture)];
+        auto known = std::find_if(alike.begin(), alike.end(), [&](int row) {
+            return textures_[row] == use.texture || *textures_[row] == *use.texture;
+        });
+        int row = known != alike.end() ? *known : static_cast<int>(textures_.size());
+        if (known == alike.end()) {
+            alike.push_back(row);
+            textures_.push_back(use.texture);
+        }
+        uses_.emplace_back(row, use);
+        return row;
     }
     const std::vector<std::shared_ptr<const Texture>>& textures() const { return textures_; }
     const std::vector<std::pair<int, TextureUse>>& uses() const { return uses_; }
 
 private:
-    int use_row(std::size_t row, const TextureUse& use) {
-        uses_.emplace_back(static_cast<int>(row), use);
-        return static_cast<int>(row);
-    }
-
     std::vector<std::shared_ptr<const Texture>> textures_;
+    std::map<std::string, std::vector<int>> by_name_;
     std::vector<std::pair<int, TextureUse>> uses_;
 };
 
@@ -61,16 +74,11 @@ bool decoded_when_read(const BitmapTexture& bitmap) {
     return layout.srgb && !bitmap.raw && layout.component == TexelComponent::single;
 }
 
-/// An image that several textures may look at.
+/// An image, which several textures may look at.
 struct ImageTexels {
     const BitmapTexture* bitmap;
     std::size_t first; ///< word
 
-    bool holds(const BitmapTexture& other) const {
-        return bitmap->source.name == other.source.name &&
-               bitmap->source.layout == other.source.layout &&
-               decoded_when_read(*bitmap) == decoded_when_read(other);
-    }
     std::size_t words() const { return (bitmap->source.layout.bytes() + 3) / 4; }
     std::span<std::byte> in(LargeVector<int>& texels) const {
         return std::as_writable_bytes(std::span(texels))
@@ -78,26 +86,32 @@ struct ImageTexels {
     }
 };
 
-const BitmapTexture* bitmap_of(const Texture& texture) {
-    return std::get_if<BitmapTexture>(&texture.kind);
-}
-
-/// One behind the other.
-std::vector<ImageTexels> place_images(const Scene& scene, const Rows& rows) {
+/// One behind the other, and of each texture which it looks at; -1: none.
+struct Images {
     std::vector<ImageTexels> images;
+    std::vector<int> of_row;
+};
+
+Images place_images(const Scene& scene, const Rows& rows) {
+    Images placed;
+    std::map<std::pair<std::string, bool>, int> known;
     std::size_t end = 0;
     for (const auto& texture : rows.textures()) {
         const BitmapTexture* bitmap = bitmap_of(*texture);
-        auto same = [&](const ImageTexels& image) { return image.holds(*bitmap); };
-        if (!bitmap || std::any_of(images.begin(), images.end(), same)) continue;
-        images.push_back({bitmap, end});
-        end += images.back().words();
+        placed.of_row.push_back(-1);
+        if (!bitmap) continue;
+        auto [entry, added] = known.try_emplace({bitmap->source.name, decoded_when_read(*bitmap)},
+                                                static_cast<int>(placed.images.size()));
+        placed.of_row.back() = entry->second;
+        if (!added) continue;
+        placed.images.push_back({bitmap, end});
+        end += placed.images.back().words();
     }
     constexpr std::size_t most = std::numeric_limits<int>::max();
     if (end > most)
         throw InputError(fmt::format("{}: its images hold {} bytes; the device reads at most {}",
                                      scene.file, 4 * end, 4 * most));
-    return images;
+    return placed;
 }
 
 void read_image(const ImageTexels& image, LargeVector<int>& texels) {
@@ -142,47 +156,39 @@ int form_of(const BitmapTexture& bitmap) {
            (linear ? TEXTURE_LINEAR : 0);
 }
 
-void set_kind(TextureRecord& t, const BitmapTexture& bitmap,
-              const std::vector<ImageTexels>& images) {
+void set_kind(TextureRecord& t, const BitmapTexture& bitmap, const ImageTexels* image) {
     t.form = form_of(bitmap);
     t.width = bitmap.source.layout.width;
     t.height = bitmap.source.layout.height;
-    for (const ImageTexels& image : images)
-        if (image.holds(bitmap)) t.first = static_cast<int>(image.first);
+    t.first = static_cast<int>(image->first);
 }
 
-void set_kind(TextureRecord& t, const CheckerboardTexture& board, const std::vector<ImageTexels>&) {
+void set_kind(TextureRecord& t, const CheckerboardTexture& board, const ImageTexels*) {
     t.form = texture_checkerboard;
     const Rgb &a = board.color0, &b = board.color1;
     t.r0 = static_cast<float>(a.r), t.g0 = static_cast<float>(a.g), t.b0 = static_cast<float>(a.b);
     t.r1 = static_cast<float>(b.r), t.g1 = static_cast<float>(b.g), t.b1 = static_cast<float>(b.b);
 }
 
-TextureRecord texture_record(const Texture& texture, const std::vector<ImageTexels>& images) {
+TextureRecord texture_record(const Texture& texture, const ImageTexels* image) {
     TextureRecord t{};
     const glm::dmat3& m = texture.to_uv;
     t.ux = static_cast<float>(m[0][0]), t.vx = static_cast<float>(m[0][1]);
     t.uy = static_cast<float>(m[1][0]), t.vy = static_cast<float>(m[1][1]);
     t.ut = static_cast<float>(m[2][0]), t.vt = static_cast<float>(m[2][1]);
-    std::visit([&](const auto& kind) { set_kind(t, kind, images); }, texture.kind);
+    std::visit([&](const auto& kind) { set_kind(t, kind, image); }, texture.kind);
     return t;
 }
 
-std::string name_of(const Texture& texture) {
-    const BitmapTexture* bitmap = bitmap_of(texture);
-    return bitmap ? bitmap->source.name : "a checkerboard";
-}
-
 /// Values that a parameter would be refused with as constants.
-void check_values(const Rows& rows, const std::vector<ImageTexels>& images, DeviceScene& out) {
-    std::vector<ValueBounds> bounds;
-    for (const auto& texture : rows.textures()) {
-        std::span<const std::byte> texels;
-        if (const BitmapTexture* bitmap = bitmap_of(*texture))
-            for (const ImageTexels& image : images)
-                if (image.holds(*bitmap)) texels = image.in(out.texels);
-        bounds.push_back(texture_bounds(*texture, texels));
-    }
+void check_values(const Rows& rows, const Images& images, LargeVector<int>& texels) {
+    std::vector<ValueBounds> bounds(rows.textures().size());
+    parallel_for(bounds.size(), [&](std::size_t row) {
+        int image = images.of_row[row];
+        std::span<const std::byte> seen;
+        if (image >= 0) seen = images.images[image].in(texels);
+        bounds[row] = texture_bounds(*rows.textures()[row], seen);
+    });
     for (const auto& [row, use] : rows.uses()) {
         const auto [lowest, highest] = bounds[row];
         if (placed(use.domain, lowest) && placed(use.domain, highest)) continue;
@@ -190,10 +196,6 @@ void check_values(const Rows& rows, const std::vector<ImageTexels>& images, Devi
                                      use.location.to_string(), use.parameter, lowest, highest,
                                      name_of(*use.texture), accepted_text(use.domain)));
     }
-}
-
-bool has_bytes(const ImageTexels& image) {
-    return image.bitmap->source.layout.component == TexelComponent::byte;
 }
 
 } // namespace
@@ -211,12 +213,17 @@ void add_textures(const Scene& scene, DeviceScene& out) {
     Rows rows;
     for (std::size_t i = 0; i < scene.materials.size(); i++)
         out.material_textures[i] = material_textures(scene.materials[i].bsdf, row_of(rows));
-    const std::vector<ImageTexels> images = place_images(scene, rows);
-    read_images(images, out.texels);
-    check_values(rows, images, out);
-    for (const auto& texture : rows.textures())
-        out.textures.push_back(texture_record(*texture, images));
-    if (std::any_of(images.begin(), images.end(), has_bytes)) out.byte_values = make_byte_values();
+    const Images images = place_images(scene, rows);
+    read_images(images.images, out.texels);
+    check_values(rows, images, out.texels);
+    bool bytes = false;
+    for (std::size_t row = 0; row < rows.textures().size(); row++) {
+        int image = images.of_row[row];
+        out.textures.push_back(
+            texture_record(*rows.textures()[row], image < 0 ? nullptr : &images.images[image]));
+        bytes |= image >= 0 && TEXTURE_COMPONENT(out.textures.back().form) == 0;
+    }
+    if (bytes) out.byte_values = make_byte_values();
 }
 
 std::vector<float> make_byte_values() {

@@ -1,6 +1,7 @@
 // Textures as kernels look them up, by the albedo of what the camera sees: filters, what stands
 // beyond an image, decoding, transforms, and what parameters of materials become.
 #include "host/error.h"
+#include "host/flatten/kind_names.h"
 #include "host/flatten/material_records.h"
 #include "host/flatten/texture_records.h"
 #include "host/image/srgb.h"
@@ -8,6 +9,7 @@
 #include "host/shared_maths.h"
 #include "tests/support/example_textures.h"
 #include "tests/support/host_render.h"
+#include "tests/support/parameter_values.h"
 
 #include <catch2/catch.hpp>
 
@@ -84,6 +86,54 @@ struct Looked {
 void check_color(const Rgb& found, const Rgb& expected, double error = 3e-5) {
     for (int c = 0; c < 3; c++)
         CHECK(found[c] == Approx(expected[c]).margin(error));
+}
+
+/// A ball in a sky of three colours that a light beside it makes uneven.
+Scene ball_in_sky(const Bsdf& bsdf) {
+    Scene scene = look_at(bsdf, 0, 0);
+    bool opaque = (OPAQUE_MATERIALS >> bsdf.index()) & 1;
+    scene.shapes = {shape_of(Sphere{}, 0, opaque ? no_material : 0)};
+    scene.emitters = {ConstantEmitter{Rgb(1, 0.8, 0.6)},
+                      DirectionalEmitter{glm::normalize(glm::dvec3(-1, -1, -1)), Rgb(2, 3, 4)}};
+    scene.camera.fov_degrees = 12;
+    scene.film.width = scene.film.crop_width = scene.film.height = scene.film.crop_height = 4;
+    scene.integrator = {};
+    scene.integrator.max_depth = 4;
+    scene.sampler.samples_per_pixel = 16;
+    return scene;
+}
+
+Rgb mean_of(const Image& image) {
+    auto mean = [&](const char* name) {
+        double sum = 0;
+        for (float value : find_channel(image, name)->values)
+            sum += value;
+        return sum / static_cast<double>(image.pixel_count());
+    };
+    return {mean("R"), mean("G"), mean("B")};
+}
+
+/// Sets the parameter of that number: reflectance, transmittance, eta, k, roughness; whether there
+/// is one. Where a texture leaves energy compensation out, that is left out.
+bool set_textured(auto& b, int parameter, const Textured<Rgb>& value) {
+    bool there = false;
+    auto set = [&](auto& to) { to = value, there = true; };
+    if constexpr (requires { b.energy_compensation; }) b.energy_compensation = parameter < 2;
+    if constexpr (requires { b.reflectance; })
+        if (parameter == 0) set(b.reflectance);
+    if constexpr (requires { b.specular_reflectance; })
+        if (parameter == 0) set(b.specular_reflectance);
+    if constexpr (requires { b.specular_transmittance; })
+        if (parameter == 1) set(b.specular_transmittance);
+    if constexpr (requires { b.index; })
+        if (parameter == 2 || parameter == 3) set(parameter == 2 ? b.index.eta : b.index.k);
+    if constexpr (requires { b.roughness; })
+        if (parameter == 4) {
+            b.roughness.alpha_u =
+                value.texture ? as_number(value) : Textured<double>(value.constant.r);
+            there = true;
+        }
+    return there;
 }
 
 const std::vector<glm::dvec2> places{{0.01, 0.02},   {0.49, 0.51},  {0.91, 0.97},  {1.31, 0.22},
@@ -211,6 +261,33 @@ TEST_CASE("Textures: materials know which of their parameters are textures", "[t
     CHECK(flat.textures.empty());
     CHECK(flat.texels.empty());
     CHECK_FALSE(flat.features.has(feature_textures));
+}
+
+TEST_CASE("Textures: one that is the same everywhere is as good as a constant", "[textures]") {
+    // Of each parameter that can be one, in each kind of material; a half of 0.5 is exact.
+    auto flat = [] {
+        return textured(texels_of(2, 3, 3, TexelComponent::half, std::vector<float>(18, 0.5f)));
+    };
+    int compared = 0;
+    for (const Bsdf& base : every_unlike_bsdf())
+        for (int parameter = 0; parameter < 5; parameter++) {
+            Bsdf constant = base, told = base;
+            bool there = std::visit(
+                [&](auto& b) { return set_textured(b, parameter, Textured<Rgb>(0.5)); }, constant);
+            std::visit([&](auto& b) { return set_textured(b, parameter, flat()); }, told);
+            if (!there) continue;
+            compared++;
+            CAPTURE(material_names[base.index()], parameter);
+            auto mean = [&](const Bsdf& bsdf) {
+                return mean_of(host_render(ball_in_sky(bsdf), Precision::double_precision).image);
+            };
+            Rgb expected = mean(constant), found = mean(told);
+            for (int c = 0; c < 3; c++)
+                CHECK(found[c] == Approx(expected[c]).epsilon(1e-5));
+            // And it makes a difference.
+            CHECK(mean(base) != expected);
+        }
+    CHECK(compared >= 15);
 }
 
 TEST_CASE("Textures: values that a parameter cannot take are refused", "[textures]") {
