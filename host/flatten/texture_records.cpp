@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
-#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -92,6 +91,9 @@ struct Images {
     std::vector<int> of_row;
 };
 
+/// Components are read three at a time, of a last grey texel as well.
+constexpr std::size_t spare_words = 3;
+
 Images place_images(const Scene& scene, const Rows& rows) {
     Images placed;
     std::map<std::pair<std::string, bool>, int> known;
@@ -107,7 +109,8 @@ Images place_images(const Scene& scene, const Rows& rows) {
         placed.images.push_back({bitmap, end});
         end += placed.images.back().words();
     }
-    constexpr std::size_t most = std::numeric_limits<int>::max();
+    // Bytes have numbers of 32 bits, those that are read behind the last as well.
+    constexpr std::size_t most = (std::size_t{1} << 30) - spare_words;
     if (end > most)
         throw InputError(fmt::format("{}: its images hold {} bytes; the device reads at most {}",
                                      scene.file, 4 * end, 4 * most));
@@ -129,11 +132,9 @@ void read_image(const ImageTexels& image, LargeVector<int>& texels) {
 /// Of several that are broken the first is told of.
 void read_images(const std::vector<ImageTexels>& images, LargeVector<int>& texels) {
     if (images.empty()) return;
-    // Components are read three at a time, of a last grey texel as well.
-    constexpr std::size_t spare = 3;
     std::size_t words = images.back().first + images.back().words();
-    texels.resize(words + spare);
-    std::fill_n(texels.end() - spare, spare, 0);
+    texels.resize(words + spare_words);
+    std::fill_n(texels.end() - spare_words, spare_words, 0);
     std::vector<std::exception_ptr> errors(images.size());
     parallel_for(images.size(), [&](std::size_t n) {
         try {

@@ -4,51 +4,6 @@
 
 #include "device/scene_tables.h"
 
-// Texels lie at any byte.
-typedef unsigned int AnyWord __attribute__((aligned(1), may_alias));
-typedef unsigned short AnyHalf __attribute__((aligned(1), may_alias));
-typedef union {
-    Uint lanes;
-    unsigned int at[LANES];
-} UintLanes;
-
-/// The bits of a texel's three components, in each lane from its own byte on: that many bytes
-/// behind word `first`.
-typedef struct {
-    UintLanes r, g, b;
-} TexelBits;
-
-FN ulong texel_address(IntLanes first, UintLanes byte, int lane) {
-    return 4 * (ulong)(uint)first.at[lane] + byte.at[lane];
-}
-
-FN TexelBits load_bytes(global const int* texels, IntLanes first, UintLanes byte) {
-    TexelBits t;
-    for (int k = 0; k < LANES; k++) {
-        // A byte more than a texel has: there are words behind the last.
-        uint word = AT_BYTE(global const AnyWord, texels, texel_address(first, byte, k));
-        t.r.at[k] = word & 255u;
-        t.g.at[k] = word >> 8 & 255u;
-        t.b.at[k] = word >> 16 & 255u;
-    }
-    return t;
-}
-
-/// Words of T, three of them: of a grey texel two stand behind it, and are not used.
-#define LOAD_COMPONENTS(name, T)                                                                   \
-    FN TexelBits name(global const int* texels, IntLanes first, UintLanes byte) {                  \
-        TexelBits t;                                                                               \
-        for (int k = 0; k < LANES; k++) {                                                          \
-            ulong at = texel_address(first, byte, k);                                              \
-            t.r.at[k] = AT_BYTE(global const T, texels, at);                                       \
-            t.g.at[k] = AT_BYTE(global const T, texels, at + sizeof(T));                           \
-            t.b.at[k] = AT_BYTE(global const T, texels, at + 2 * sizeof(T));                       \
-        }                                                                                          \
-        return t;                                                                                  \
-    }
-LOAD_COMPONENTS(load_halves, AnyHalf)
-LOAD_COMPONENTS(load_singles, AnyWord)
-
 /// IEEE 754 binary16, finite.
 FN Real value_of_half(Uint bits) {
     Int exponent = asInt(bits >> 10 & 31u), mantissa = asInt(bits & 1023u);
@@ -84,40 +39,43 @@ FN Image image_of(Texture t, Mask wanted) {
     return i;
 }
 
-/// Lanes that are not `mine` read what the first texture begins with.
-FN Uint byte_for(Mask mine, Uint byte) { return sel(mine, byte, (Uint)0u); }
+FN vec3 texel_of_bytes(SceneTables scene, Uint at, Int form) {
+    Uint word = gather_at_byte(scene.texels, at); // the fourth is the next texel's
+    Int table = sel((form & TEXTURE_LINEAR) != 0, (Int)256, (Int)0);
+    return v3(gather(scene.byte_values, asInt(word & 255u) + table),
+              gather(scene.byte_values, asInt(word >> 8 & 255u) + table),
+              gather(scene.byte_values, asInt(word >> 16 & 255u) + table));
+}
 
+FN vec3 texel_of_halves(SceneTables scene, Uint at) {
+    Uint first = gather_at_byte(scene.texels, at), second = gather_at_byte(scene.texels, at + 4u);
+    return v3(value_of_half(first & 65535u), value_of_half(first >> 16),
+              value_of_half(second & 65535u));
+}
+
+FN vec3 texel_of_singles(SceneTables scene, Uint at) {
+    return v3(value_of_single(gather_at_byte(scene.texels, at)),
+              value_of_single(gather_at_byte(scene.texels, at + 4u)),
+              value_of_single(gather_at_byte(scene.texels, at + 8u)));
+}
+
+/// Lanes whose components are of another kind read what the first image begins with; behind a grey
+/// texel, and behind the last, stands something.
 FN vec3 texel_at(SceneTables scene, Image i, Int x, Int y) {
     vec3 color = splat3(R(0.));
-    UintLanes byte;
-    Uint at = asUint(y * i.t.width + x) * asUint(i.texel_bytes);
+    Uint texel = asUint(y * i.t.width + x);
+    Uint at = asUint(i.t.first) * 4u + texel * asUint(i.texel_bytes);
     if (HAS(texels_byte) && someLane(i.bytes)) {
-        byte.lanes = byte_for(i.bytes, at);
-        TexelBits bits =
-            load_bytes(scene.texels, one_by_one(sel(i.bytes, i.t.first, (Int)0)), byte);
-        Int table = sel((i.t.form & TEXTURE_LINEAR) != 0, (Int)256, (Int)0);
-        vec3 found = v3(gather(scene.byte_values, asInt(bits.r.lanes) + table),
-                        gather(scene.byte_values, asInt(bits.g.lanes) + table),
-                        gather(scene.byte_values, asInt(bits.b.lanes) + table));
+        vec3 found = texel_of_bytes(scene, sel(i.bytes, at, (Uint)0u), i.t.form);
         color = sel3(i.bytes, found, color);
     }
     if (HAS(texels_half) && someLane(i.halves)) {
-        byte.lanes = byte_for(i.halves, at);
-        TexelBits bits =
-            load_halves(scene.texels, one_by_one(sel(i.halves, i.t.first, (Int)0)), byte);
-        color = sel3(i.halves,
-                     v3(value_of_half(bits.r.lanes), value_of_half(bits.g.lanes),
-                        value_of_half(bits.b.lanes)),
-                     color);
+        vec3 found = texel_of_halves(scene, sel(i.halves, at, (Uint)0u));
+        color = sel3(i.halves, found, color);
     }
     if (HAS(texels_single) && someLane(i.singles)) {
-        byte.lanes = byte_for(i.singles, at);
-        TexelBits bits =
-            load_singles(scene.texels, one_by_one(sel(i.singles, i.t.first, (Int)0)), byte);
-        color = sel3(i.singles,
-                     v3(value_of_single(bits.r.lanes), value_of_single(bits.g.lanes),
-                        value_of_single(bits.b.lanes)),
-                     color);
+        vec3 found = texel_of_singles(scene, sel(i.singles, at, (Uint)0u));
+        color = sel3(i.singles, found, color);
     }
     return sel3((i.t.form & TEXTURE_GREY) != 0, splat3(color.x), color);
 }
