@@ -39,6 +39,9 @@ nlohmann::json image_of(const BitmapTexture& bitmap) {
             {"bytes", layout.bytes()}};
 }
 nlohmann::json image_of(const CheckerboardTexture&) { return {{"kind", "checkerboard"}}; }
+nlohmann::json image_of(const MeshAttributeTexture& attribute) {
+    return {{"kind", "mesh_attribute"}, {"name", attribute.name}};
+}
 
 nlohmann::json describe_textures(const Scene& scene) {
     nlohmann::json all = nlohmann::json::array();
@@ -98,6 +101,7 @@ std::string joined(const nlohmann::json& names) {
 }
 
 std::string texture_text(const nlohmann::json& t) {
+    if (t.contains("name")) return fmt::format("mesh_attribute {}", t["name"].get<std::string>());
     if (!t.contains("file")) return t["kind"].get<std::string>();
     return fmt::format("{} {} x {} texels, {} x {}, {} bytes: {}", t["kind"].get<std::string>(),
                        t["width_texels"].get<int>(), t["height_texels"].get<int>(),

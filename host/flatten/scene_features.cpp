@@ -46,13 +46,12 @@ void decide_materials(const DeviceScene& records, FeatureDecisions& out) {
                fmt::format("{} of {} materials", count_anisotropic(records), materials.size()));
 }
 
-/// After textures.
-void decide_analytic_uvs(const Scene& scene, const std::vector<ShapeRecord>& shapes,
-                         FeatureDecisions& out) {
+void decide_analytic_uvs(const Scene& scene, const DeviceScene& records,
+                         const std::vector<ShapeRecord>& shapes, FeatureDecisions& out) {
     Count analytic = count_of(shapes, "shapes have no vertices", [](const ShapeRecord& s) {
         return (s.flags & PRIMITIVE_KIND_MASK) != geometry_triangle;
     });
-    bool read = out.has(feature_textures) || asks_for_uvs(scene);
+    bool read = reads_uvs(scene, records);
     out.decide(feature_analytic_uvs, analytic.any && read,
                fmt::format("{}, {} reads them", analytic.text, read ? "something" : "nothing"));
 }
@@ -88,7 +87,7 @@ void decide_surfaces(const Scene& scene, const DeviceScene& records, FeatureDeci
                     has(PRIMITIVE_UVS));
     decide_by_count(out, feature_back_materials, shapes, "shapes",
                     [&](const ShapeRecord& s) { return has_back_material(s, records); });
-    decide_analytic_uvs(scene, shapes, out);
+    decide_analytic_uvs(scene, records, shapes, out);
     std::size_t primitives = records.geometry.primitives.size();
     out.decide(feature_ray_streams, traced_in_streams(primitives),
                fmt::format("{} primitives; packets up to {}", primitives, primitives_for_packets));

@@ -33,13 +33,13 @@ struct Attributes {
 };
 
 Attributes attributes_of(const Scene& scene, const DeviceScene& records) {
-    bool reads_uvs = has_anisotropic(records) || !records.textures.empty() || asks_for_uvs(scene);
+    bool read = has_anisotropic(records) || reads_uvs(scene, records);
     Attributes some;
     for (const Shape& shape : scene.shapes)
         if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
             mesh && !mesh->triangles.empty()) {
             some.normals |= !mesh->normals.empty();
-            some.uvs |= reads_uvs && !mesh->uvs.empty();
+            some.uvs |= read && !mesh->uvs.empty();
         }
     return some;
 }

@@ -41,7 +41,16 @@ ValueBounds bounds_of(const CheckerboardTexture& board, std::span<const std::byt
     return {std::min({a.r, a.g, a.b, b.r, b.g, b.b}), std::max({a.r, a.g, a.b, b.r, b.g, b.b})};
 }
 
+/// What a mesh has is looked at where it is known.
+ValueBounds bounds_of(const MeshAttributeTexture&, std::span<const std::byte>) {
+    return {0.0, 0.0};
+}
+
 } // namespace
+
+ValueBounds bounds_of_values(std::span<const float> values) {
+    return values.empty() ? ValueBounds{0.0, 0.0} : bounds_of<float>(std::as_bytes(values));
+}
 
 ValueBounds texture_bounds(const Texture& texture, std::span<const std::byte> texels) {
     return std::visit([&](const auto& kind) { return bounds_of(kind, texels); }, texture.kind);

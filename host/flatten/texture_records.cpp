@@ -1,6 +1,7 @@
 // The textures of a scene as the device reads them.
 #include "host/flatten/texture_records.h"
 
+#include "host/flatten/attribute_texels.h"
 #include "host/flatten/material_records.h"
 #include "host/flatten/texture_bounds.h"
 #include "host/image/srgb.h"
@@ -22,9 +23,12 @@ const BitmapTexture* bitmap_of(const Texture& texture) {
     return std::get_if<BitmapTexture>(&texture.kind);
 }
 
+// As messages call them.
+std::string name_of(const BitmapTexture& bitmap) { return bitmap.source.name; }
+std::string name_of(const CheckerboardTexture&) { return "a checkerboard"; }
+std::string name_of(const MeshAttributeTexture& attribute) { return attribute.name; }
 std::string name_of(const Texture& texture) {
-    const BitmapTexture* bitmap = bitmap_of(texture);
-    return bitmap ? bitmap->source.name : "a checkerboard";
+    return std::visit([](const auto& kind) { return name_of(kind); }, texture.kind);
 }
 
 /// Rows of textures as parameters name them: the same texture has one row, whoever made it.
@@ -94,6 +98,14 @@ struct Images {
 /// Components are read three at a time, of a last grey texel as well.
 constexpr std::size_t spare_words = 3;
 
+/// Bytes have numbers of 32 bits, those that are read behind the last as well.
+void check_words(const Scene& scene, std::size_t words) {
+    constexpr std::size_t most = (std::size_t{1} << 30) - spare_words;
+    if (words > most)
+        throw InputError(fmt::format("{}: its textures hold {} bytes; the device reads at most {}",
+                                     scene.file, 4 * words, 4 * most));
+}
+
 Images place_images(const Scene& scene, const Rows& rows) {
     Images placed;
     std::map<std::pair<std::string, bool>, int> known;
@@ -109,11 +121,7 @@ Images place_images(const Scene& scene, const Rows& rows) {
         placed.images.push_back({bitmap, end});
         end += placed.images.back().words();
     }
-    // Bytes have numbers of 32 bits, those that are read behind the last as well.
-    constexpr std::size_t most = (std::size_t{1} << 30) - spare_words;
-    if (end > most)
-        throw InputError(fmt::format("{}: its images hold {} bytes; the device reads at most {}",
-                                     scene.file, 4 * end, 4 * most));
+    check_words(scene, end);
     return placed;
 }
 
@@ -171,6 +179,11 @@ void set_kind(TextureRecord& t, const CheckerboardTexture& board, const ImageTex
     t.r1 = static_cast<float>(b.r), t.g1 = static_cast<float>(b.g), t.b1 = static_cast<float>(b.b);
 }
 
+/// Its words are added behind the images.
+void set_kind(TextureRecord& t, const MeshAttributeTexture& attribute, const ImageTexels*) {
+    t.form = texture_mesh_attribute | (attribute.of_faces() ? TEXTURE_OF_FACES : 0);
+}
+
 TextureRecord texture_record(const Texture& texture, const ImageTexels* image) {
     TextureRecord t{};
     const glm::dmat3& m = texture.to_uv;
@@ -182,14 +195,7 @@ TextureRecord texture_record(const Texture& texture, const ImageTexels* image) {
 }
 
 /// Values that a parameter would be refused with as constants.
-void check_values(const Rows& rows, const Images& images, LargeVector<int>& texels) {
-    std::vector<ValueBounds> bounds(rows.textures().size());
-    parallel_for(bounds.size(), [&](std::size_t row) {
-        int image = images.of_row[row];
-        std::span<const std::byte> seen;
-        if (image >= 0) seen = images.images[image].in(texels);
-        bounds[row] = texture_bounds(*rows.textures()[row], seen);
-    });
+void check_values(const Rows& rows, const std::vector<ValueBounds>& bounds) {
     for (const auto& [row, use] : rows.uses()) {
         const auto [lowest, highest] = bounds[row];
         if (placed(use.domain, lowest) && placed(use.domain, highest)) continue;
@@ -197,6 +203,43 @@ void check_values(const Rows& rows, const Images& images, LargeVector<int>& texe
                                      use.location.to_string(), use.parameter, lowest, highest,
                                      name_of(*use.texture), accepted_text(use.domain)));
     }
+}
+
+/// Between which values each texture stays, but for attributes of meshes.
+std::vector<ValueBounds> bounds_of(const Rows& rows, const Images& images,
+                                   LargeVector<int>& texels) {
+    std::vector<ValueBounds> bounds(rows.textures().size());
+    parallel_for(bounds.size(), [&](std::size_t row) {
+        int image = images.of_row[row];
+        std::span<const std::byte> seen;
+        if (image >= 0) seen = images.images[image].in(texels);
+        bounds[row] = texture_bounds(*rows.textures()[row], seen);
+    });
+    return bounds;
+}
+
+/// Behind what stands in `texels`, and then as many words to spare.
+void add_attribute(const Scene& scene, const MeshAttributeTexture& attribute, int row,
+                   DeviceScene& out, std::vector<ValueBounds>& bounds) {
+    std::size_t first = std::max(out.texels.size(), spare_words) - spare_words;
+    AttributeTexels added = attribute_texels(scene, out, attribute, row, first);
+    std::size_t table = first + added.values.size(), end = table + added.shapes.size();
+    check_words(scene, end);
+    out.texels.resize(end + spare_words);
+    if (!added.values.empty())
+        std::memcpy(&out.texels[first], added.values.data(), added.values.size() * sizeof(float));
+    std::copy(added.shapes.begin(), added.shapes.end(), &out.texels[table]);
+    std::fill_n(out.texels.end() - spare_words, spare_words, 0);
+    out.textures[row].first = static_cast<int>(table);
+    if (added.grey) out.textures[row].form |= TEXTURE_GREY;
+    bounds[row] = bounds_of_values(added.values);
+}
+
+void add_attributes(const Scene& scene, const Rows& rows, DeviceScene& out,
+                    std::vector<ValueBounds>& bounds) {
+    for (std::size_t row = 0; row < rows.textures().size(); row++)
+        if (const auto* a = std::get_if<MeshAttributeTexture>(&rows.textures()[row]->kind))
+            add_attribute(scene, *a, static_cast<int>(row), out, bounds);
 }
 
 } // namespace
@@ -216,7 +259,7 @@ void add_textures(const Scene& scene, DeviceScene& out) {
         out.material_textures[i] = material_textures(scene.materials[i].bsdf, row_of(rows));
     const Images images = place_images(scene, rows);
     read_images(images.images, out.texels);
-    check_values(rows, images, out.texels);
+    std::vector<ValueBounds> bounds = bounds_of(rows, images, out.texels);
     bool bytes = false;
     for (std::size_t row = 0; row < rows.textures().size(); row++) {
         int image = images.of_row[row];
@@ -224,6 +267,8 @@ void add_textures(const Scene& scene, DeviceScene& out) {
             texture_record(*rows.textures()[row], image < 0 ? nullptr : &images.images[image]));
         bytes |= image >= 0 && TEXTURE_COMPONENT(out.textures.back().form) == 0;
     }
+    add_attributes(scene, rows, out, bounds);
+    check_values(rows, bounds);
     if (bytes) out.byte_values = make_byte_values();
 }
 
@@ -243,9 +288,13 @@ std::size_t count_anisotropic(const DeviceScene& records) {
     return count;
 }
 
-bool asks_for_uvs(const Scene& scene) {
+bool reads_uvs(const Scene& scene, const DeviceScene& records) {
     const auto& aovs = scene.integrator.aovs;
-    return std::any_of(aovs.begin(), aovs.end(),
+    return std::any_of(records.textures.begin(), records.textures.end(),
+                       [](const TextureRecord& t) {
+                           return TEXTURE_KIND(t.form) != texture_mesh_attribute;
+                       }) ||
+           std::any_of(aovs.begin(), aovs.end(),
                        [](const AovRequest& a) { return a.kind == "uv"; });
 }
 

@@ -21,8 +21,8 @@ void add_textures(const Scene& scene, DeviceScene& out);
 std::size_t count_anisotropic(const DeviceScene& records);
 inline bool has_anisotropic(const DeviceScene& records) { return count_anisotropic(records) > 0; }
 
-/// Whether texture coordinates are asked for as an AOV.
-bool asks_for_uvs(const Scene& scene);
+/// Whether texture coordinates are read: asked for as an AOV, or by textures.
+bool reads_uvs(const Scene& scene, const DeviceScene& records);
 
 /// What bytes of texels stand for: BYTE_VALUES numbers, correctly rounded.
 std::vector<float> make_byte_values();

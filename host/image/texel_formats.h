@@ -25,8 +25,8 @@ struct ImageBytes {
 // is_<id>, layout_of_<id> and read_<id>. Files are asked in this order; TGA has no mark of its own.
 #define TEXEL_FORMATS(X)                                                                           \
     X("PNG", png)                                                                                  \
-    X("JPEG", jpeg) X("OpenEXR", openexr) X("Radiance HDR", rgbe) X("BMP", bmp) X("PFM", pfm)      \
-        X("TGA", tga)
+    X("JPEG", jpeg)                                                                                \
+    X("OpenEXR", openexr) X("Radiance HDR", rgbe) X("BMP", bmp) X("PFM", pfm) X("TGA", tga)
 
 #define DECLARE_FORMAT(name, id)                                                                   \
     bool is_##id(const ImageBytes& file);                                                          \

@@ -45,6 +45,15 @@ struct CheckerboardTexture {
     bool operator==(const CheckerboardTexture&) const = default;
 };
 
+/// What a mesh has at its vertices, interpolated, or of its faces.
+struct MeshAttributeTexture {
+    std::string name; ///< begins with "vertex_" or "face_"
+    double scale = 1.0;
+
+    bool of_faces() const { return name.starts_with("face_"); }
+    bool operator==(const MeshAttributeTexture&) const = default;
+};
+
 template<class, class... Kinds>
 struct TextureKinds {
     using Type = std::variant<Kinds...>;

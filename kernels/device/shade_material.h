@@ -22,6 +22,17 @@ typedef struct {
     SampleNumber number;
 } Shading;
 
+/// Where textures are looked up.
+FN TexturePlace texture_place(PathVertex v) {
+    TexturePlace place;
+    place.uv = v.surface.uv;
+    place.primitive = v.path.primitive;
+    place.shape = PRIMITIVE_SHAPE(v.primitive.stored.shape);
+    place.b1 = v.path.b1;
+    place.b2 = v.path.b2;
+    return place;
+}
+
 /// A side without material absorbs; AOVs still show the front's.
 FN Shading shading_at(ShadeWork w, PathVertex v) {
     Shading s;
@@ -42,7 +53,8 @@ FN Shading shading_at(ShadeWork w, PathVertex v) {
     row = sel(row >= 0, row, front);
     row = sel(row >= 0, row, (Int)0);
     s.material = load_Material(w.scene.materials, row);
-    if (HAS(textures)) s.material = resolve_textures(w.scene, row, v.surface.uv, v.hit, s.material);
+    if (HAS(textures))
+        s.material = resolve_textures(w.scene, row, texture_place(v), v.hit, s.material);
     return s;
 }
 

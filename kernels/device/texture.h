@@ -135,26 +135,56 @@ FN vec3 checkerboard_color(Texture t, Mask first) {
     return sel3(first, v3(t.r0, t.g0, t.b0), v3(t.r1, t.g1, t.b1));
 }
 
+/// Where on a surface a texture is looked up.
+typedef struct {
+    vec2 uv;
+    Int primitive, shape; // their numbers
+    Real b1, b2;          // barycentrics of a triangle
+} TexturePlace;
+
+/// Three floats from each lane's word on.
+FN vec3 load_color(global const int* words, Int first) {
+    global const float* values = (global const float*)words;
+    return v3(gather(values, first), gather(values + 1, first), gather(values + 2, first));
+}
+
+FN vec3 mesh_attribute_color(SceneTables scene, Texture t, TexturePlace place, Mask mine) {
+    Int first = gather_int(scene.texels, sel(mine, t.first + place.shape, (Int)0));
+    Mask faces = (t.form & TEXTURE_OF_FACES) != 0;
+    Int word = first + place.primitive * sel(faces, (Int)3, (Int)9);
+    word = sel(mine, word, (Int)0);
+    vec3 a = load_color(scene.texels, word);
+    if (!someLane(mine & !faces)) return a;
+    Int next = sel(mine & !faces, word + 3, word), last = sel(mine & !faces, word + 6, word);
+    vec3 between = interpolate3(a, load_color(scene.texels, next), load_color(scene.texels, last),
+                                place.b1, place.b2);
+    return sel3(faces, a, between);
+}
+
 FN Texture load_wanted_texture(SceneTables scene, Int row, Mask wanted) {
     return load_Texture(scene.textures, sel(wanted, row, (Int)0));
 }
-FN vec2 texture_place(Texture t, vec2 uv) {
+FN vec2 texture_uv(Texture t, vec2 uv) {
     return v2(t.ux * uv.x + t.uy * uv.y + t.ut, t.vx * uv.x + t.vy * uv.y + t.vt);
 }
 
-/// The colour of texture `row` at coordinates of the surface; lanes that are not wanted get some
+/// The colour of texture `row` at a place of the surface; lanes that are not wanted get some
 /// numbers.
-FN vec3 texture_color(SceneTables scene, Int row, vec2 uv, Mask wanted) {
+FN vec3 texture_color(SceneTables scene, Int row, TexturePlace place, Mask wanted) {
     Texture t = load_wanted_texture(scene, row, wanted);
-    vec2 place = texture_place(t, uv);
+    vec2 uv = texture_uv(t, place.uv);
     vec3 color = splat3(R(0.));
     if (HAS(texture_bitmap)) {
         Mask mine = wanted & (TEXTURE_KIND(t.form) == texture_bitmap);
-        if (someLane(mine)) color = bitmap_color(scene, t, place, mine);
+        if (someLane(mine)) color = bitmap_color(scene, t, uv, mine);
     }
     if (HAS(texture_checkerboard)) {
         Mask mine = TEXTURE_KIND(t.form) == texture_checkerboard;
-        color = sel3(mine, checkerboard_color(t, checkerboard_first(place)), color);
+        color = sel3(mine, checkerboard_color(t, checkerboard_first(uv)), color);
+    }
+    if (HAS(texture_mesh_attribute)) {
+        Mask mine = wanted & (TEXTURE_KIND(t.form) == texture_mesh_attribute);
+        if (someLane(mine)) color = sel3(mine, mesh_attribute_color(scene, t, place, mine), color);
     }
     return color;
 }
@@ -164,21 +194,29 @@ FN Real luminance(vec3 c) { return R(0.212671) * c.x + R(0.715160) * c.y + R(0.0
 
 /// The number that texture `row` is there: of a colour its luminance. A checkerboard is the other
 /// way about than its colours are, as in Mitsuba 3 (eval_1 and eval of its `checkerboard`).
-FN Real texture_number(SceneTables scene, Int row, vec2 uv, Mask wanted) {
+FN Real texture_number(SceneTables scene, Int row, TexturePlace place, Mask wanted) {
     Texture t = load_wanted_texture(scene, row, wanted);
-    vec2 place = texture_place(t, uv);
+    vec2 uv = texture_uv(t, place.uv);
     Real number = R(0.);
     if (HAS(texture_bitmap)) {
         Mask mine = wanted & (TEXTURE_KIND(t.form) == texture_bitmap);
         if (someLane(mine)) {
-            vec3 color = bitmap_color(scene, t, place, mine);
+            vec3 color = bitmap_color(scene, t, uv, mine);
             number = sel((t.form & TEXTURE_GREY) != 0, color.x, luminance(color));
         }
     }
     if (HAS(texture_checkerboard)) {
         Mask mine = TEXTURE_KIND(t.form) == texture_checkerboard;
-        vec3 color = checkerboard_color(t, !checkerboard_first(place));
+        vec3 color = checkerboard_color(t, !checkerboard_first(uv));
         number = sel(mine, luminance(color), number);
+    }
+    if (HAS(texture_mesh_attribute)) {
+        Mask mine = wanted & (TEXTURE_KIND(t.form) == texture_mesh_attribute);
+        if (someLane(mine)) {
+            vec3 color = mesh_attribute_color(scene, t, place, mine);
+            Real grey = sel((t.form & TEXTURE_GREY) != 0, color.x, luminance(color));
+            number = sel(mine, grey, number);
+        }
     }
     return number;
 }
@@ -186,24 +224,25 @@ FN Real texture_number(SceneTables scene, Int row, vec2 uv, Mask wanted) {
 /// Less roughness is smooth to single precision, as for constants.
 #define LEAST_ROUGHNESS R(1e-9)
 
-FN Real textured_roughness(SceneTables scene, Int row, vec2 uv, Mask hit, Real otherwise) {
+FN Real textured_roughness(SceneTables scene, Int row, TexturePlace place, Mask hit,
+                           Real otherwise) {
     Mask wanted = hit & (row >= 0);
-    Real alpha = maxR(texture_number(scene, row, uv, wanted), LEAST_ROUGHNESS);
+    Real alpha = maxR(texture_number(scene, row, place, wanted), LEAST_ROUGHNESS);
     return sel(wanted, alpha, otherwise);
 }
 
-FN vec3 textured_color(SceneTables scene, Int row, vec2 uv, Mask hit, vec3 otherwise) {
+FN vec3 textured_color(SceneTables scene, Int row, TexturePlace place, Mask hit, vec3 otherwise) {
     Mask wanted = hit & (row >= 0);
     if (!someLane(wanted)) return otherwise;
-    return sel3(wanted, texture_color(scene, row, uv, wanted), otherwise);
+    return sel3(wanted, texture_color(scene, row, place, wanted), otherwise);
 }
 
 /// The material of row `row` of the materials, its words as textures tell them at the lanes that
 /// have hit something.
-FN Material resolve_textures(SceneTables scene, Int row, vec2 uv, Mask hit, Material m) {
+FN Material resolve_textures(SceneTables scene, Int row, TexturePlace place, Mask hit, Material m) {
     MaterialTextures t = load_MaterialTextures(scene.material_textures, row);
     if (HAS(textured_reflectance)) {
-        vec3 c = textured_color(scene, t.reflectance, uv, hit, splat3(R(1.)));
+        vec3 c = textured_color(scene, t.reflectance, place, hit, splat3(R(1.)));
         m.r = m.r * c.x, m.g = m.g * c.y, m.b = m.b * c.z;
         // A rough metal's average reflectance stands in place of a transmittance.
         if (HAS(bsdf_roughconductor)) {
@@ -212,18 +251,18 @@ FN Material resolve_textures(SceneTables scene, Int row, vec2 uv, Mask hit, Mate
         }
     }
     if (HAS(textured_transmittance)) {
-        vec3 c = textured_color(scene, t.transmittance, uv, hit, material_transmittance(m));
+        vec3 c = textured_color(scene, t.transmittance, place, hit, material_transmittance(m));
         m.tr = c.x, m.tg = c.y, m.tb = c.z;
     }
     if (HAS(textured_index)) {
-        vec3 eta = textured_color(scene, t.eta, uv, hit, material_eta(m));
-        vec3 k = textured_color(scene, t.k, uv, hit, material_k(m));
+        vec3 eta = textured_color(scene, t.eta, place, hit, material_eta(m));
+        vec3 k = textured_color(scene, t.k, place, hit, material_k(m));
         m.er = eta.x, m.eg = eta.y, m.eb = eta.z;
         m.kr = k.x, m.kg = k.y, m.kb = k.z;
     }
     if (HAS(textured_roughness)) {
-        m.alpha_u = textured_roughness(scene, t.alpha_u, uv, hit, m.alpha_u);
-        m.alpha_v = textured_roughness(scene, t.alpha_v, uv, hit, m.alpha_v);
+        m.alpha_u = textured_roughness(scene, t.alpha_u, place, hit, m.alpha_u);
+        m.alpha_v = textured_roughness(scene, t.alpha_v, place, hit, m.alpha_v);
     }
     return m;
 }

@@ -11,7 +11,7 @@
 #define GEOMETRIES(X) X(triangle) X(sphere) X(disk)
 
 // What a parameter of a material can be in place of a constant: name in files, the host's struct (<Name>Texture).
-#define TEXTURES(X) X(bitmap, Bitmap) X(checkerboard, Checkerboard)
+#define TEXTURES(X) X(bitmap, Bitmap) X(checkerboard, Checkerboard) X(mesh_attribute, MeshAttribute)
 
 // Rows of the light table: name, whether a ray can meet it. An area emitter has one row for each of its primitives.
 #define EMITTERS(X)                                                                                \

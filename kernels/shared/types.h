@@ -90,7 +90,8 @@
     X(int, unused0) X(int, unused1)
 
 // Coordinates are taken to (ux u + uy v + ut, vx u + vy v + vt). An image: its size in texels, the word of `texels` that the first
-// begins with, their decoding. A checkerboard: its colours.
+// begins with, their decoding. A checkerboard: its colours. An attribute of meshes: the word of `texels` where a word for each shape
+// begins. From that one, counted in primitives from the scene's first, stand three floats of each face, or of each corner of it.
 #define TEXTURE_FIELDS(X)                                                                          \
     X(int, form)                              /* TEXTURE_* below */                                \
     X(float, ux) X(float, uy) X(float, ut) X(float, vx) X(float, vy) X(float, vt)                  \
@@ -105,6 +106,7 @@
 #define TEXTURE_COMPONENT(form) ((form) >> 8 & 3) // 0: bytes, 1: halves, 2: floats
 #define TEXTURE_COMPONENT_SHIFT 8
 #define TEXTURE_LINEAR 1024            // bytes stand for 0 to 1 evenly, not as in sRGB
+#define TEXTURE_OF_FACES 2048          // an attribute of faces, not of vertices
 
 // What bytes of texels stand for: 256 of sRGB, 256 evenly.
 #define BYTE_VALUES 512

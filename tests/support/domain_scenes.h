@@ -46,6 +46,7 @@ inline std::string step_element(std::string_view element, std::string_view name,
 inline std::string companions(std::string_view plugin, std::string_view name) {
     if (name == "alpha_u") return "<float name='alpha_v' value='0.1'/>";
     if (name == "alpha_v") return "<float name='alpha_u' value='0.1'/>";
+    if (plugin == "mesh_attribute") return "<string name='name' value='vertex_color'/>";
     if (plugin == "aov") return "<string name='aovs' value='d:depth'/>";
     if (plugin == "moment") return "<integrator type='direct'/>";
     if (plugin == "thinlens" && name != "aperture_radius")

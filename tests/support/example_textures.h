@@ -66,8 +66,8 @@ inline Textured<Rgb> example_checkerboard() {
         Texture{"", to_uv, CheckerboardTexture{Rgb(0.2, 0.3, 0.6), Rgb(0.7, 0.5, 0.4)}});
 }
 using ExampleTexture = Textured<Rgb> (*)();
-#define EXAMPLE_TEXTURE(name, Name) example_##name,
-/// One of each kind.
-inline constexpr std::array example_textures{TEXTURES(EXAMPLE_TEXTURE)};
+/// One of each kind that any shape can have: attributes are those of meshes.
+inline constexpr std::array<ExampleTexture, texture_kind_count - 1> example_textures{
+    example_bitmap, example_checkerboard};
 
 } // namespace parhelion::test

@@ -163,9 +163,9 @@ TEST_CASE("scene textures: refusals name file, line, parameter, and what is acce
             "lacks its parameter \"filename\"");
     refused(diffuse(bitmap("<string name='wrap_mode' value='border'/>")),
             "\"wrap_mode\" is \"border\" (accepted: repeat, mirror, clamp)");
-    refused(diffuse("<texture type='mesh_attribute' name='reflectance'/>"),
-            "texture plugin \"mesh_attribute\" is not supported (accepted: bitmap, checkerboard, "
-            "rawconstant)");
+    refused(diffuse("<texture type='volume' name='reflectance'/>"),
+            "texture plugin \"volume\" is not supported (accepted: bitmap, checkerboard, "
+            "mesh_attribute, rawconstant)");
     refused(diffuse("<rgb name='reflectance' value='1 1 1'/>" + bitmap()),
             "parameter \"reflectance\" is given twice");
     refused(diffuse(bitmap() + bitmap()), "parameter \"reflectance\" is given twice");

@@ -112,6 +112,7 @@ const NumberParameter other_parameters[] = {
 
     {"texture", "checkerboard", "color0", color, texture_value, "what its parameter takes"},
     {"texture", "checkerboard", "color1", color, texture_value, "what its parameter takes"},
+    {"texture", "mesh_attribute", "scale", real, texture_value, "what its parameter takes"},
     {"texture", "rawconstant", "value", vector, texture_value, "what its parameter takes"},
 
     {"shape", "sphere", "radius", real, size},

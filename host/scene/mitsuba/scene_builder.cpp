@@ -1,6 +1,7 @@
 // From a Mitsuba document to a Scene.
 #include "host/scene/mitsuba/scene_builder.h"
 
+#include "host/scene/material_textures.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
 #include "host/scene/mitsuba/textures.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace parhelion::mitsuba {
 
@@ -172,6 +174,27 @@ void refuse_only_empty(const Scene& scene) {
     refuse(place, reasons);
 }
 
+/// What no texture names is of no use: scanned meshes have colours that cost as much as their
+/// points.
+void drop_unread_attributes(Scene& scene) {
+    std::set<std::string> read;
+    for (const Material& material : scene.materials)
+        each_texture(material.bsdf, [&](const TextureUse& use) {
+            const auto* const a = std::get_if<MeshAttributeTexture>(&use.texture->kind);
+            if (a) read.insert(a->name);
+        });
+    for (Shape& shape : scene.shapes) {
+        Mesh* const mesh = std::get_if<Mesh>(&shape.geometry);
+        if (!mesh) continue;
+        std::erase_if(mesh->attributes, [&](const MeshAttribute& a) {
+            if (read.contains(a.name)) return false;
+            scene.notes.push_back(shape.location.to_string() + ": attribute " + in_quotes(a.name) +
+                                  " of the mesh is not used");
+            return true;
+        });
+    }
+}
+
 Scene SceneBuilder::build(const std::string& file) {
     scene_.file = file;
     const Object& root = document_.objects.front();
@@ -181,6 +204,7 @@ Scene SceneBuilder::build(const std::string& file) {
         refuse(parameter.location, "<scene> has no parameter " + in_quotes(parameter.name));
     if (!sensor_) refuse({file, 0}, "the scene has no <sensor>");
     refuse_only_empty(scene_);
+    drop_unread_attributes(scene_);
     if (!integrator_)
         scene_.notes.push_back(file + ": the scene has no <integrator>; \"path\" is used");
     scene_.files = document_.files.found();

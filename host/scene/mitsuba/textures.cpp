@@ -24,7 +24,7 @@ TextureFilter read_filter_type(Properties& p) {
     return filter == 1 ? TextureFilter::nearest : TextureFilter::bilinear;
 }
 
-auto read_bitmap(Properties& p) {
+Texture read_bitmap(Properties& p) {
     BitmapTexture bitmap;
     const std::string name = p.required_text("filename");
     const SourceLocation place = p.location_of("filename");
@@ -43,21 +43,31 @@ auto read_bitmap(Properties& p) {
         if (what.starts_with(place.to_string())) throw;
         refuse(place, what);
     }
-    return bitmap;
+    return {p.object().id, read_to_uv(p), bitmap};
 }
 
-auto read_checkerboard(Properties& p) {
+Texture read_checkerboard(Properties& p) {
     const CheckerboardTexture missing;
     const auto read = [&](const char* name, const Rgb& otherwise) {
         return p.color(name, otherwise, SpectrumUse::unbounded);
     };
-    return CheckerboardTexture{read("color0", missing.color0), read("color1", missing.color1)};
+    return {p.object().id, read_to_uv(p),
+            CheckerboardTexture{read("color0", missing.color0), read("color1", missing.color1)}};
 }
 
-using TextureReader = decltype(Texture::kind) (*)(Properties&);
+Texture read_mesh_attribute(Properties& p) {
+    MeshAttributeTexture attribute;
+    attribute.name = p.required_text("name");
+    if (!attribute.name.starts_with("vertex_") && !attribute.name.starts_with("face_"))
+        p.refuse_value("name", in_quotes(attribute.name),
+                       "a name that begins with vertex_ or face_");
+    attribute.scale = p.number("scale", 1.0);
+    return {p.object().id, glm::dmat3(1.0), attribute};
+}
 
-#define TEXTURE_PLUGIN(name, Name)                                                                 \
-    {#name, [](Properties& p) -> decltype(Texture::kind) { return read_##name(p); }},
+using TextureReader = Texture (*)(Properties&);
+
+#define TEXTURE_PLUGIN(name, Name) {#name, read_##name},
 constexpr PluginTable<TextureReader, texture_kind_count + 1> texture_plugins = {
     {TEXTURES(TEXTURE_PLUGIN){"rawconstant", nullptr}}};
 
@@ -71,7 +81,7 @@ Texture read_texture(const Document& document, const Object& object,
                      std::vector<std::string>& notes) {
     Properties p(document, object, notes);
     const TextureReader read = find_plugin(texture_plugins, object);
-    Texture texture{object.id, read_to_uv(p), read(p)};
+    Texture texture = read(p);
     p.finish();
     return texture;
 }
