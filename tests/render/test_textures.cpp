@@ -153,6 +153,11 @@ TEST_CASE("Textures: every way to compile the kernels gives the bits of the host
                 if constexpr (requires { b.roughness; }) b.roughness.alpha_u = as_number(texture());
             },
             m.bsdf);
+    // The wall's material is no other shape's: it can be an attribute of a mesh.
+    scene.materials.back().bsdf = DiffuseBsdf{
+        textured(Texture{"", glm::dmat3(1), MeshAttributeTexture{"vertex_color", 0.9}})};
+    std::get<Mesh>(scene.shapes[1].geometry).attributes = {
+        {"vertex_color", 3, {0.1f, 0.9f, 0.3f, 0.5f, 0.2f, 0.8f, 0.7f, 0.6f, 0.4f, 0.3f, 1, 0}}};
     scene.sampler.samples_per_pixel = 3;
     scene.integrator.aovs = {{"al", "albedo", {}}};
     Image host = host_render(scene, Precision::single_precision).image;
