@@ -14,10 +14,11 @@ namespace {
 #define MATERIAL_NAME(name, ...) "bsdf_" #name,
 #define EMITTER_NAME(name, ...) "emitter_" #name,
 #define GEOMETRY_NAME(name) "shape_" #name,
+#define TEXTURE_NAME(name, ...) "texture_" #name,
 #define OTHER_NAME(name) #name,
 /// In the order of enum Feature.
-constexpr std::array feature_names{MATERIALS(MATERIAL_NAME) EMITTERS(EMITTER_NAME)
-                                       GEOMETRIES(GEOMETRY_NAME) OTHER_FEATURES(OTHER_NAME)};
+constexpr std::array feature_names{MATERIALS(MATERIAL_NAME) EMITTERS(EMITTER_NAME) GEOMETRIES(
+    GEOMETRY_NAME) TEXTURES(TEXTURE_NAME) OTHER_FEATURES(OTHER_NAME)};
 static_assert(feature_names.size() == feature_count);
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "host/error.h"
 #include "host/flatten/device_scene.h"
 #include "host/flatten/kind_names.h"
+#include "host/flatten/texture_records.h"
 #include "host/json_text.h"
 #include "host/render/report.h"
 #include "host/scene/load.h"
@@ -25,6 +26,29 @@ struct InfoCommand {
     RenderCommand image; ///< what of it decides which kernels there are
     bool json = false;
 };
+
+/// Of textures that are images: what their files hold.
+nlohmann::json image_of(const BitmapTexture& bitmap) {
+    const TexelLayout& layout = bitmap.source.layout;
+    return {{"kind", "bitmap"},
+            {"file", bitmap.source.name},
+            {"width_texels", layout.width},
+            {"height_texels", layout.height},
+            {"components", layout.channels},
+            {"component", texel_component_names[static_cast<std::size_t>(layout.component)]},
+            {"bytes", layout.bytes()}};
+}
+nlohmann::json image_of(const CheckerboardTexture&) { return {{"kind", "checkerboard"}}; }
+nlohmann::json image_of(const MeshAttributeTexture& attribute) {
+    return {{"kind", "mesh_attribute"}, {"name", attribute.name}};
+}
+
+nlohmann::json describe_textures(const Scene& scene) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const auto& texture : textures_of(scene))
+        all.push_back(std::visit([](const auto& kind) { return image_of(kind); }, texture->kind));
+    return all;
+}
 
 nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
     std::map<std::string, int> shapes, materials, lights;
@@ -50,7 +74,8 @@ nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
             {"primitives", flat.geometry.primitives.size()},
             {"materials", materials},
             {"lights", lights},
-            {"textures", 0},
+            {"textures", describe_textures(scene)},
+            {"texture_bytes", 4 * flat.texels.size()},
             {"bvh",
              {{"nodes", flat.bvh_statistics.node_count},
               {"leaves", flat.bvh_statistics.leaf_count},
@@ -76,6 +101,15 @@ std::string joined(const nlohmann::json& names) {
     return fmt::format("{}", fmt::join(names.get<std::vector<std::string>>(), " "));
 }
 
+std::string texture_text(const nlohmann::json& t) {
+    if (t.contains("name")) return fmt::format("mesh_attribute {}", t["name"].get<std::string>());
+    if (!t.contains("file")) return t["kind"].get<std::string>();
+    return fmt::format("{} {} x {} texels, {} x {}, {} bytes: {}", t["kind"].get<std::string>(),
+                       t["width_texels"].get<int>(), t["height_texels"].get<int>(),
+                       t["components"].get<int>(), t["component"].get<std::string>(),
+                       t["bytes"].get<std::size_t>(), t["file"].get<std::string>());
+}
+
 std::string text_of(const nlohmann::json& info) {
     const nlohmann::json &film = info["film"], &frame = info["frame"], &bvh = info["bvh"];
     std::string text = as_one_line(info["scene"].get<std::string>()) + '\n';
@@ -95,7 +129,10 @@ std::string text_of(const nlohmann::json& info) {
                               info["triangles"].get<std::size_t>()));
     add("materials", counted(info["materials"]));
     add("lights", counted(info["lights"]));
-    add("textures", fmt::format("{}", info["textures"].get<int>()));
+    add("textures", fmt::format("{} ({:.1f} MB)", info["textures"].size(),
+                                info["texture_bytes"].get<double>() / 1e6));
+    for (const auto& texture : info["textures"])
+        add("", texture_text(texture));
     add("BVH", fmt::format("{} nodes, {} leaves, depth {}, SAH cost {:.2f}",
                            bvh["nodes"].get<std::size_t>(), bvh["leaves"].get<std::size_t>(),
                            bvh["depth"].get<int>(), bvh["sah_cost"].get<double>()));

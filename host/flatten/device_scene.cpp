@@ -11,6 +11,7 @@
 #include "host/flatten/scene_arrays.h"
 #include "host/flatten/scene_features.h"
 #include "host/flatten/shape_records.h"
+#include "host/flatten/texture_records.h"
 
 #include <glm/geometric.hpp>
 
@@ -52,6 +53,7 @@ static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
     out.notes = rounding_notes(scene, out.frame);
     for (const Material& material : scene.materials)
         out.materials.push_back(material_record(material.bsdf));
+    add_textures(scene, out);
     add_shapes(scene, out);
     add_lobes(scene, out);
     add_light_table(scene, choice, out);

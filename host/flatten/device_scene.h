@@ -28,7 +28,11 @@ struct DeviceScene {
     SceneFrame frame;
     IndexedGeometry geometry; ///< its shapes are those of the scene
     std::vector<MaterialRecord> materials;
-    std::vector<LobeRecord> lobes; ///< lists, one behind the other
+    std::vector<LobeRecord> lobes;                         ///< lists, one behind the other
+    std::vector<MaterialTexturesRecord> material_textures; ///< as many
+    std::vector<TextureRecord> textures;
+    LargeVector<int> texels;
+    std::vector<float> byte_values; ///< BYTE_VALUES of them where there are texels of bytes
     std::vector<LightRecord> lights;
     LightTree light_tree;             ///< empty where there is only one light
     std::vector<float> energy_tables; ///< one behind the other; materials know their first

@@ -138,7 +138,9 @@ std::vector<float> energy_tables(const MaterialRecord& record, int azimuths) {
 bool wants_energy_compensation(const Bsdf& bsdf) {
     return std::visit(
         [](const auto& b) {
-            if constexpr (requires { b.energy_compensation; }) return b.energy_compensation;
+            // A table is of one roughness and one index.
+            if constexpr (requires { b.energy_compensation; })
+                return b.energy_compensation && !has_textured_lobe(b);
             return false;
         },
         bsdf);

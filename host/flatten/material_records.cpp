@@ -15,16 +15,24 @@ namespace {
     }
 MATERIAL_FIELDS(SET_WORD)
 
-void set_reflectance(MaterialRecord& m, const Rgb& c) {
+/// 1 where a texture tells the value, which the device multiplies by it, or puts in its place.
+template<class T>
+T or_one(const Textured<T>& value) {
+    return value.texture ? T(1.0) : value.constant;
+}
+
+void set_reflectance(MaterialRecord& m, const Textured<Rgb>& color) {
+    const Rgb c = or_one(color);
     m.r = static_cast<float>(c.r), m.g = static_cast<float>(c.g), m.b = static_cast<float>(c.b);
 }
 
-void set_transmittance(MaterialRecord& m, const Rgb& c) {
+void set_transmittance(MaterialRecord& m, const Textured<Rgb>& color) {
+    const Rgb c = or_one(color);
     m.tr = static_cast<float>(c.r), m.tg = static_cast<float>(c.g), m.tb = static_cast<float>(c.b);
 }
 
 void set_conductor(MaterialRecord& m, const parameter::ComplexIndex::Value& index) {
-    const auto& [eta, k] = index;
+    const Rgb eta = or_one(index.eta), k = or_one(index.k);
     m.er = static_cast<float>(eta.r), m.eg = static_cast<float>(eta.g),
     m.eb = static_cast<float>(eta.b);
     m.kr = static_cast<float>(k.r), m.kg = static_cast<float>(k.g), m.kb = static_cast<float>(k.b);
@@ -44,8 +52,8 @@ void set_interface(MaterialRecord& m, double eta) {
 
 void set_roughness(MaterialRecord& m, const parameter::Roughness::Value& r) {
     m.distribution = r.distribution == MicrofacetDistribution::beckmann ? 1 : 0;
-    m.alpha_u = static_cast<float>(r.alpha_u);
-    m.alpha_v = static_cast<float>(r.alpha_v);
+    m.alpha_u = static_cast<float>(or_one(r.alpha_u));
+    m.alpha_v = static_cast<float>(or_one(r.alpha_v));
 }
 
 void set_nothing(const MaterialRecord&, bool) {} // for the host alone
@@ -61,10 +69,10 @@ void derive(const MaterialRecord&, const auto&) {}
 
 /// Rough metals keep their average reflectance in place of a transmittance.
 void derive(MaterialRecord& m, const RoughConductorBsdf& b) {
-    const auto& [eta, k] = b.index;
+    const Rgb eta = or_one(b.index.eta), k = or_one(b.index.k);
     Rgb average(average_reflectance(eta.r, k.r), average_reflectance(eta.g, k.g),
                 average_reflectance(eta.b, k.b));
-    set_transmittance(m, b.specular_reflectance * average);
+    set_transmittance(m, or_one(b.specular_reflectance) * average);
 }
 
 /// What a coat sends back to its base, see types.h.
@@ -73,6 +81,37 @@ void derive(MaterialRecord& m, const PlasticBsdf& b) {
     m.kg = static_cast<float>(b.nonlinear ? -inside : inside);
     m.kb = 0.f;
 }
+
+// Textures of parameters, by the same word.
+
+using Rows = MaterialTexturesRecord;
+
+void texture_reflectance(Rows& t, const Textured<Rgb>& c, const TextureRow& row) {
+    t.reflectance = row(c.texture);
+}
+void texture_transmittance(Rows& t, const Textured<Rgb>& c, const TextureRow& row) {
+    t.transmittance = row(c.texture);
+}
+void texture_conductor(Rows& t, const parameter::ComplexIndex::Value& index,
+                       const TextureRow& row) {
+    t.eta = row(index.eta.texture);
+    t.k = row(index.k.texture);
+}
+void texture_roughness(Rows& t, const parameter::Roughness::Value& r, const TextureRow& row) {
+    t.alpha_u = row(r.alpha_u.texture);
+    t.alpha_v = row(r.alpha_v.texture);
+}
+void texture_interface(const Rows&, double, const TextureRow&) {}
+void texture_alpha_u(const Rows&, double, const TextureRow&) {}
+void texture_nothing(const Rows&, bool, const TextureRow&) {}
+
+#define TEXTURE_PARAMETER(Kind, name, missing, domain, stored) texture_##stored(t, b.name, row);
+#define TEXTURES_OF_BSDF(name, Name, ...)                                                          \
+    void set_textures([[maybe_unused]] Rows& t, [[maybe_unused]] const Name##Bsdf& b,              \
+                      [[maybe_unused]] const TextureRow& row) {                                    \
+        PARAMETERS_##name(TEXTURE_PARAMETER)                                                       \
+    }
+MATERIALS(TEXTURES_OF_BSDF)
 
 #define SET_PARAMETER(Kind, name, missing, domain, stored) set_##stored(m, b.name);
 #define PACK_BSDF(name, Name, ...)                                                                 \
@@ -107,6 +146,12 @@ MaterialRecord material_record(const Bsdf& bsdf) {
         },
         bsdf);
     return m;
+}
+
+MaterialTexturesRecord material_textures(const Bsdf& bsdf, const TextureRow& row) {
+    MaterialTexturesRecord t = no_textures;
+    std::visit([&](const auto& b) { set_textures(t, b, row); }, bsdf);
+    return t;
 }
 
 } // namespace parhelion

@@ -4,16 +4,27 @@
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"
 
+#include <functional>
 #include <type_traits>
 
 namespace parhelion {
 
+/// Where a texture tells a value, that is 1.
 MaterialRecord material_record(const Bsdf& bsdf);
 
 /// Fresnel reflectance of an interface of relative index eta for light that comes from everywhere
 /// on its inner side. It is an integral over the side of the lesser index, where it is smooth; from
 /// one side to the other by reciprocity.
 double inner_reflectance(double eta);
+
+/// The row of a texture, -1 where there is none.
+using TextureRow = std::function<int(const TextureUse&)>;
+
+#define NO_TEXTURE(type, name) -1,
+inline constexpr MaterialTexturesRecord no_textures{MATERIAL_TEXTURES_FIELDS(NO_TEXTURE)};
+
+/// Rows of the textures that tell words of the record above.
+MaterialTexturesRecord material_textures(const Bsdf& bsdf, const TextureRow& row);
 
 #define IS_ROUGHNESS(Kind, ...) || std::is_same_v<parameter::Kind, parameter::Roughness>
 #define ROUGH_BIT(name, ...) | ((false PARAMETERS_##name(IS_ROUGHNESS)) << material_##name)
@@ -29,8 +40,8 @@ inline constexpr int interface_materials = 0 MATERIALS(INTERFACE_BIT);
 
 inline bool is_rough(const MaterialRecord& m) { return (rough_materials >> m.kind) & 1; }
 /// Whether its lobes lie along a surface's texture coordinates.
-inline bool is_anisotropic(const MaterialRecord& m) {
-    return is_rough(m) && m.alpha_u != m.alpha_v;
+inline bool is_anisotropic(const MaterialRecord& m, const MaterialTexturesRecord& t) {
+    return is_rough(m) && (m.alpha_u != m.alpha_v || t.alpha_u != t.alpha_v);
 }
 
 } // namespace parhelion

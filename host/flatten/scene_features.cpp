@@ -3,9 +3,12 @@
 
 #include "host/flatten/aov_plan.h"
 #include "host/flatten/energy_table.h"
+#include "host/flatten/feature_counts.h"
 #include "host/flatten/filter_table.h"
 #include "host/flatten/lobe_lists.h"
 #include "host/flatten/material_records.h"
+#include "host/flatten/texture_features.h"
+#include "host/flatten/texture_records.h"
 
 #include <fmt/format.h>
 
@@ -30,54 +33,30 @@ constexpr std::size_t primitives_for_packets = 500'000;
 
 constexpr int no_limit = std::numeric_limits<int>::max(); // of a path's edges
 
-std::string counted(std::size_t count, const char* one) {
-    return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
-}
-
-struct Count {
-    bool any;
-    std::string text; ///< "2 of 5 materials"
-};
-
-template<class Records, class Needs>
-Count count_of(const Records& records, const char* name, Needs needs) {
-    auto count = std::count_if(records.begin(), records.end(), needs);
-    return {count > 0, fmt::format("{} of {} {}", count, records.size(), name)};
-}
-
-/// A feature that any of them needs.
-template<class Records, class Needs>
-void decide_by_count(FeatureDecisions& out, Feature f, const Records& records, const char* name,
-                     Needs needs) {
-    Count count = count_of(records, name, needs);
-    out.decide(f, count.any, count.text);
-}
-
-void decide_by_request(FeatureDecisions& out, Feature f, bool asked) {
-    out.decide(f, asked, asked ? "asked for" : "not asked for");
-}
-
-template<std::size_t N, class Records, class KindOf>
-void decide_kinds(FeatureDecisions& out, const std::array<Feature, N>& features,
-                  const Records& records, const char* name, KindOf kind_of) {
-    for (std::size_t kind = 0; kind < N; kind++)
-        decide_by_count(out, features[kind], records, name, [&](const auto& record) {
-            return static_cast<std::size_t>(kind_of(record)) == kind;
-        });
-}
-
 bool is_beckmann(const MaterialRecord& m) { return is_rough(m) && (m.distribution & 1); }
 bool is_matte(const MaterialRecord& m) { return (MATTE_MATERIALS >> m.kind) & 1; }
 bool is_opaque(const MaterialRecord& m) { return (OPAQUE_MATERIALS >> m.kind) & 1; }
 bool lets_through(const MaterialRecord& m) { return (PASSING_MATERIALS >> m.kind) & 1; }
 
-void decide_materials(const std::vector<MaterialRecord>& materials, FeatureDecisions& out) {
+void decide_materials(const DeviceScene& records, FeatureDecisions& out) {
+    const auto& materials = records.materials;
     decide_kinds(out, material_features, materials, "materials",
                  [](const MaterialRecord& m) { return m.kind; });
     // GGX is always there: Beckmann is sampled by its visible normals.
     decide_by_count(out, feature_ggx, materials, "materials rough", is_rough);
     decide_by_count(out, feature_beckmann, materials, "materials", is_beckmann);
-    decide_by_count(out, feature_anisotropy, materials, "materials", is_anisotropic);
+    out.decide(feature_anisotropy, has_anisotropic(records),
+               fmt::format("{} of {} materials", count_anisotropic(records), materials.size()));
+}
+
+void decide_analytic_uvs(const Scene& scene, const DeviceScene& records,
+                         const std::vector<ShapeRecord>& shapes, FeatureDecisions& out) {
+    Count analytic = count_of(shapes, "shapes have no vertices", [](const ShapeRecord& s) {
+        return (s.flags & PRIMITIVE_KIND_MASK) != geometry_triangle;
+    });
+    bool read = reads_uvs(scene, records);
+    out.decide(feature_analytic_uvs, analytic.any && read,
+               fmt::format("{}, {} reads them", analytic.text, read ? "something" : "nothing"));
 }
 
 bool is_black(const MaterialRecord& m) {
@@ -123,6 +102,7 @@ void decide_surfaces(const Scene& scene, const DeviceScene& records, FeatureDeci
     decide_by_count(out, feature_blends, shapes, "shapes", [](const ShapeRecord& s) {
         return IS_BLEND(s.material_front) || IS_BLEND(s.material_back);
     });
+    decide_analytic_uvs(scene, records, shapes, out);
     std::size_t primitives = records.geometry.primitives.size();
     out.decide(feature_ray_streams, traced_in_streams(primitives),
                fmt::format("{} primitives; packets up to {}", primitives, primitives_for_packets));
@@ -265,7 +245,8 @@ int longest_path(const Integrator& integrator) {
 
 FeatureDecisions scene_features(const Scene& scene, const DeviceScene& records) {
     FeatureDecisions out;
-    decide_materials(records.materials, out);
+    decide_materials(records, out);
+    decide_texture_features(records, out);
     decide_surfaces(scene, records, out);
     decide_lights(records, out);
     decide_camera_and_sampler(scene, records, out);

@@ -2,7 +2,7 @@
 #include "host/flatten/shape_records.h"
 
 #include "host/error.h"
-#include "host/flatten/material_records.h"
+#include "host/flatten/texture_records.h"
 #include "host/parallel.h"
 
 #include <fmt/format.h>
@@ -27,22 +27,19 @@ void write(const glm::vec<N, double>& v, float* to) {
 /// What points have beside: whether any mesh has it, and something reads it.
 struct Attributes {
     bool normals = false;
-    bool uvs = false; ///< read by lobes that lie along them, and by their AOV
+    bool uvs = false; ///< read by lobes that lie along them, by textures, and by their AOV
 
     std::size_t point_words() const { return POINT_WORDS(normals, uvs); }
 };
 
-Attributes attributes_of(const Scene& scene, const std::vector<MaterialRecord>& materials) {
-    auto is_uv = [](const AovRequest& a) { return a.kind == "uv"; };
-    const auto& aovs = scene.integrator.aovs;
-    bool reads_uvs = std::any_of(materials.begin(), materials.end(), is_anisotropic) ||
-                     std::any_of(aovs.begin(), aovs.end(), is_uv);
+Attributes attributes_of(const Scene& scene, const DeviceScene& records) {
+    bool read = has_anisotropic(records) || reads_uvs(scene, records);
     Attributes some;
     for (const Shape& shape : scene.shapes)
         if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
             mesh && !mesh->triangles.empty()) {
             some.normals |= !mesh->normals.empty();
-            some.uvs |= reads_uvs && !mesh->uvs.empty();
+            some.uvs |= read && !mesh->uvs.empty();
         }
     return some;
 }
@@ -178,7 +175,7 @@ void reserve(const Scene& scene, Attributes some, DeviceScene& out) {
 } // namespace
 
 void add_shapes(const Scene& scene, DeviceScene& out) {
-    Attributes some = attributes_of(scene, out.materials);
+    Attributes some = attributes_of(scene, out);
     reserve(scene, some, out);
     for (const Shape& shape : scene.shapes)
         std::visit([&](const auto& g) { add_shape(g, shape, some, out); }, shape.geometry);

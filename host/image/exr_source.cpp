@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <utility>
 
 namespace parhelion {
@@ -144,6 +145,24 @@ void check_header(const ExrSource& source) {
     while (skip_header(source, stream) > 0 && Imf::isMultiPart(version)) {
     }
     stream.seekg(0);
+}
+
+void refuse_as_input(const ExrSource& source) {
+    try {
+        throw;
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        source.refuse("not enough memory to read it");
+    } catch (const std::exception& error) {
+        std::string reason = error.what();
+        const std::string opening =
+            "\"" + source.file + "\". "; // the library names the file as well
+        if (const std::size_t at = reason.find(opening); at != std::string::npos)
+            reason.erase(0, at + opening.size());
+        std::replace(reason.begin(), reason.end(), '\n', ' ');
+        source.refuse("cannot be read as OpenEXR: " + reason);
+    }
 }
 
 } // namespace parhelion

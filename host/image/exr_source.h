@@ -32,4 +32,17 @@ ExrSource exr_in_memory(std::string_view bytes, const std::string& name);
 /// file.
 void check_header(const ExrSource& source);
 
+/// What is being thrown, out of the library or for want of memory, as the source's InputError.
+[[noreturn]] void refuse_as_input(const ExrSource& source);
+
+/// What `read` returns; throws InputError whatever goes wrong in it.
+template<class Read>
+auto read_refusing(const ExrSource& source, Read read) {
+    try {
+        return read();
+    } catch (...) {
+        refuse_as_input(source);
+    }
+}
+
 } // namespace parhelion

@@ -11,6 +11,11 @@ inline double srgb_encode(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
+/// The linear value of an encoded one in [0, 1]; both branches of the standard.
+inline double srgb_decode(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
 using Matrix3 = std::array<std::array<double, 3>, 3>; ///< rows
 
 inline std::array<double, 3> transform(const Matrix3& m, const std::array<double, 3>& v) {

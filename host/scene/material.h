@@ -24,6 +24,18 @@ struct VariantOf {
 #define BSDF_TYPE(name, Name, ...) , Name##Bsdf
 using Bsdf = VariantOf<void MATERIALS(BSDF_TYPE)>::Type; ///< its index is the MaterialKind
 
+/// Whether a texture tells how its lobe spreads, roughness or index, and not only how much it
+/// reflects.
+template<class Kind>
+bool has_textured_lobe(const Kind& b) {
+    bool textured = false;
+    if constexpr (requires { b.roughness; })
+        textured = b.roughness.alpha_u.texture || b.roughness.alpha_v.texture;
+    if constexpr (requires { b.index; })
+        textured = textured || b.index.eta.texture || b.index.k.texture;
+    return textured;
+}
+
 struct Material {
     std::string id; ///< the author's id, or a made-up one ("bsdf 3")
     SourceLocation location;

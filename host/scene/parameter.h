@@ -2,20 +2,17 @@
 // kernels/shared/materials.h.
 #pragma once
 
-#include <glm/vec3.hpp>
+#include "host/scene/texture.h"
 
 namespace parhelion {
-
-using Rgb =
-    glm::dvec3; ///< linear sRGB primaries, D65 white; radiometric unit given where it is used
 
 enum class MicrofacetDistribution { ggx, beckmann };
 
 namespace parameter {
 
-/// A colour or spectrum, reduced to RGB.
+/// A colour or spectrum, reduced to RGB, or a texture.
 struct Color {
-    using Value = Rgb;
+    using Value = Textured<Rgb>;
 };
 
 struct Number {
@@ -40,7 +37,8 @@ struct SeparateIndex {
 /// `material`.
 struct ComplexIndex {
     struct Value {
-        Rgb eta{0.0}, k{1.0}; ///< reflects everything, which is what Mitsuba 3 does by default
+        Textured<Rgb> eta{0.0},
+            k{1.0}; ///< reflects everything, which is what Mitsuba 3 does by default
     };
 };
 
@@ -48,7 +46,7 @@ struct ComplexIndex {
 struct Roughness {
     struct Value {
         MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
-        double alpha_u = 0.1, alpha_v = 0.1;
+        Textured<double> alpha_u = 0.1, alpha_v = 0.1;
     };
 };
 

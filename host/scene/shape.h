@@ -13,6 +13,15 @@
 
 namespace parhelion {
 
+/// Numbers that a mesh has at its vertices, or of each of its triangles.
+struct MeshAttribute {
+    std::string name; ///< begins with "vertex_" or "face_"
+    int channels = 3; ///< 1 or 3
+    std::vector<float> values;
+
+    bool of_faces() const { return name.starts_with("face_"); }
+};
+
 /// Triangles with shared vertices, each used by some. `normals` and `uvs` are empty or as long as
 /// `positions`. `flip_normals` is applied on loading (winding and vertex normals), `face_normals`
 /// drops the vertex normals.
@@ -22,6 +31,7 @@ struct Mesh {
     std::vector<glm::dvec2> uvs;
     std::vector<glm::uvec3>
         triangles; ///< counter-clockwise seen from the side the geometric normal points to
+    std::vector<MeshAttribute> attributes; ///< those that textures name
 };
 
 /// Analytic sphere. The axes (unit, orthogonal, right-handed up to a mirror) carry the uv

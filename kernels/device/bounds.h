@@ -50,11 +50,16 @@ static __attribute__((noinline)) global void* inside(global const void* base, gl
 #define IN_BUFFER(T, base, index) ((T*)inside(base, (T*)(base) + (index), sizeof(T)))
 #define WORD_IN_BUFFER(T, base, word)                                                              \
     ((T*)inside(base, (global const int*)(base) + (word), sizeof(T)))
+#define BYTE_IN_BUFFER(T, base, byte)                                                              \
+    ((T*)inside(base, (global const char*)(base) + (byte), sizeof(T)))
 #else
 #define IN_BUFFER(T, base, index) ((T*)(base) + (index))
 #define WORD_IN_BUFFER(T, base, word) ((T*)((global const int*)(base) + (word)))
+#define BYTE_IN_BUFFER(T, base, byte) ((T*)((global const char*)(base) + (byte)))
 #endif
 #else
+#define BYTE_IN_BUFFER(T, base, byte)                                                              \
+    ((T*)inside(base, (global const char*)(base) + (byte), sizeof(T)))
 #define IN_BUFFER(T, base, index) ((T*)inside(base, (T*)(base) + (index), sizeof(T)))
 #endif
 
@@ -66,6 +71,8 @@ static __attribute__((noinline)) global void* inside(global const void* base, gl
 /// Element `index` of type T from `base` on; base stands twice.
 #define AT(T, base, index) (*IN_BUFFER(T, base, index))
 #define PRIVATE_AT(T, base, index) ((base)[index])
+/// A T that begins with byte `byte` from base on, wherever that is.
+#define AT_BYTE(T, base, byte) (*BYTE_IN_BUFFER(T, base, byte))
 /// A T that begins with word `word` from base on.
 #define AT_WORD(T, base, word) (*WORD_IN_BUFFER(T, base, word))
 

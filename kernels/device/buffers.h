@@ -13,7 +13,10 @@
 #define SCENE_BUFFERS(X)                                                                           \
     X(BvhNode, bvh_nodes) X(BvhLine, bvh_leaves)                                                   \
     X(IndexedPrimitiveRecord, primitives) X(float, points) X(ShapeRecord, shapes)                  \
-    X(MaterialRecord, materials) X(LobeRecord, lobes) X(LightRecord, lights)                       \
+    X(MaterialRecord, materials) X(LobeRecord, lobes)                                              \
+    X(MaterialTexturesRecord, material_textures) X(TextureRecord, textures)                        \
+    X(int, texels) /* of images, one behind the other */                                           \
+    X(float, byte_values) X(LightRecord, lights)                                                   \
     X(LightNodeRecord, light_nodes) X(int, light_leaves) /* the leaf of each light */              \
     X(float, energy_tables)                                                                        \
     X(FilterBin, filter_table) X(float, filter_values) /* at n / FILTER_INTERVALS pixels */

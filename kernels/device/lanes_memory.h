@@ -17,6 +17,13 @@ typedef union {
     int at[LANES];
 } IntLanes;
 
+typedef union {
+    Uint lanes;
+    unsigned int at[LANES];
+} UintLanes;
+/// At any byte.
+typedef unsigned int AnyWord __attribute__((aligned(1), may_alias));
+
 /// What is wanted of each lane by itself.
 FN IntLanes one_by_one(Int v) {
     IntLanes out;
@@ -105,6 +112,9 @@ FN Real gather(global const float* p, Int index) { return AT(global const float,
 FN Real gather(const Scalar* p, Int index) { return AT(const Scalar, p, index); }
 #endif
 FN Int gather_int(global const int* p, Int index) { return AT(global const int, p, index); }
+FN Uint gather_at_byte(global const int* p, Uint byte) {
+    return AT_BYTE(global const AnyWord, p, (ulong)byte);
+}
 FN void scatter_add(global Scalar* p, Int index, Real v, uint bits) {
     if (bits) AT(global Scalar, p, index) += v;
 }
@@ -126,6 +136,17 @@ FN Real gather(global const float* p, Int index) {
     return __builtin_ia32_gather3siv8sf((Real)0.f, PLAIN(p), index, (uchar)-1, 4);
 #endif
 }
+/// The word that begins with a byte, wherever that is: less than 2^32 of them from p on, which
+/// signed indices reach from the middle.
+FN Uint gather_at_byte(global const int* p, Uint byte) {
+    const void* middle = PLAIN((ulong)p + 2147483648ul);
+    Int index = asInt(byte - 2147483648u);
+#if LANES == 16
+    return asUint(__builtin_ia32_gathersiv16si((Int)0, middle, index, (ushort)-1, 1));
+#else
+    return asUint(__builtin_ia32_gather3siv8si((Int)0, middle, index, (uchar)-1, 1));
+#endif
+}
 #else
 FN Real gather(global const float* p, Int index) {
     IntLanes i;
@@ -134,6 +155,13 @@ FN Real gather(global const float* p, Int index) {
     for (int k = 0; k < LANES; k++)
         r.at[k] = AT(global const float, p, i.at[k]);
     return r.lanes;
+}
+FN Uint gather_at_byte(global const int* p, Uint byte) {
+    UintLanes b, w;
+    b.lanes = byte;
+    for (int k = 0; k < LANES; k++)
+        w.at[k] = AT_BYTE(global const AnyWord, p, (ulong)b.at[k]);
+    return w.lanes;
 }
 #endif
 

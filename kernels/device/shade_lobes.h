@@ -28,7 +28,7 @@ FN BsdfEval eval_all_lobes(ShadeWork w, Shading s, BsdfEval chosen, vec3 wi, Mas
     Int code = sel(lanes, s.code, (Int)(-1));
     for (LobeWalk l = first_lobe(w.scene, code); someLane(l.inside); l = next_lobe(w.scene, l)) {
         Mask other = l.inside & (l.entry != s.lobe.entry);
-        Material m = load_Material(w.scene.materials, l.lobe.material);
+        Material m = material_of_row(w, s.place, l.lobe.material, other);
         Real side = side_to_viewer(m, s.wo.z * s.side);
         vec3 wo = v3(s.wo.x, s.wo.y, s.wo.z * s.side * side);
         BsdfEval e = bsdf_eval(m, wo, v3(in_frame.x, in_frame.y, in_frame.z * side));
@@ -60,7 +60,7 @@ FN vec3 all_lobes_reflectance(ShadeWork w, Shading s) {
     vec3 sum = splat3(R(0.));
     Real there = R(0.);
     for (LobeWalk l = first_lobe(w.scene, s.code); someLane(l.inside); l = next_lobe(w.scene, l)) {
-        Material m = load_Material(w.scene.materials, l.lobe.material);
+        Material m = material_of_row(w, s.place, l.lobe.material, l.inside);
         Real weight = sel(l.inside & (m.kind != material_null), l.lobe.weight, R(0.));
         sum = add3(sum, scale3(material_reflectance(m), weight));
         there = there + weight;

@@ -7,10 +7,12 @@
 #include "device/lobes.h"
 #include "device/notes.h"
 #include "device/shade_work.h"
+#include "device/texture.h"
 
 typedef struct {
-    Mask lanes;        // on a side that has a material
-    Mask may_pass;     // of those, where a ray may go straight through
+    Mask lanes;    // on a side that has a material
+    Mask may_pass; // of those, where a ray may go straight through
+    TexturePlace place;
     Int code;          // what they are made of; of lanes without: the front, for AOVs
     Material material; // that, or the lobe of it that a direction is drawn from
     ChosenLobe lobe;
@@ -31,6 +33,24 @@ FN Int side_code(ShadeWork w, PathVertex v, Mask below) {
     return code;
 }
 
+/// Where textures are looked up.
+FN TexturePlace texture_place(PathVertex v) {
+    TexturePlace place;
+    place.uv = v.surface.uv;
+    place.primitive = v.path.primitive;
+    place.shape = PRIMITIVE_SHAPE(v.primitive.stored.shape);
+    place.b1 = v.path.b1;
+    place.b2 = v.path.b2;
+    return place;
+}
+
+/// A row of the materials, as textures tell it on the lanes.
+FN Material material_of_row(ShadeWork w, TexturePlace place, Int row, Mask lanes) {
+    Material m = load_Material(w.scene.materials, row);
+    if (HAS(textures)) m = resolve_textures(w.scene, row, place, lanes, m);
+    return m;
+}
+
 /// A side without material absorbs; AOVs still show the front's.
 FN Shading shading_at(ShadeWork w, PathVertex v) {
     Shading s;
@@ -46,6 +66,7 @@ FN Shading shading_at(ShadeWork w, PathVertex v) {
     s.frame = surface_frame(shaded);
     NOTE(surface, shaded);
     s.wo = to_local(s.frame, neg3(v.path.direction));
+    if (HAS(textures)) s.place = texture_place(v);
     Int front = v.primitive.stored.material, code = side_code(w, v, s.wo.z < R(0.));
     s.lanes = v.hit & (code != -1);
     s.code = sel(code != -1, code, front);
@@ -57,7 +78,7 @@ FN Shading shading_at(ShadeWork w, PathVertex v) {
         row = s.lobe.row;
     }
     NOTE(material, sel(s.lanes, row, (Int)(-1)));
-    s.material = load_Material(w.scene.materials, sel(row >= 0, row, (Int)0));
+    s.material = material_of_row(w, s.place, sel(row >= 0, row, (Int)0), v.hit);
     return s;
 }
 

@@ -10,6 +10,9 @@
 // clang-format off
 #define GEOMETRIES(X) X(triangle) X(sphere) X(disk) X(cylinder)
 
+// What a parameter of a material can be in place of a constant: name in files, the host's struct (<Name>Texture).
+#define TEXTURES(X) X(bitmap, Bitmap) X(checkerboard, Checkerboard) X(mesh_attribute, MeshAttribute)
+
 // Rows of the light table: name, whether a ray can meet it. An area emitter has one row for each of its primitives.
 #define EMITTERS(X)                                                                                \
     X(area_triangle, 1) X(area_parallelogram, 1) X(area_sphere, 1) X(area_disk, 1) X(point, 0)       \
@@ -31,6 +34,10 @@
     X(consistent_normals) /* and its shading keeps to the geometry */                               \
     X(soft_terminator)    /* with diffuse light fading towards the true horizon */                 \
     X(vertex_uvs)         /* some mesh has texture coordinates, and something reads them */         \
+    X(analytic_uvs)       /* something reads texture coordinates of spheres and disks */            \
+    X(textures)           /* some parameter of a material is a texture; of these: */                \
+    X(textured_reflectance) X(textured_transmittance) X(textured_index) X(textured_roughness)      \
+    X(texels_byte) X(texels_half) X(texels_single) /* components of their texels */                 \
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
     X(blends)             /* some surface is several materials at once */                            \
     X(ggx) X(beckmann) X(anisotropy)                                                               \
@@ -59,16 +66,19 @@
 #define FEATURE_MATERIAL(name, ...) feature_bsdf_##name,
 #define FEATURE_EMITTER(name, ...) feature_emitter_##name,
 #define FEATURE_GEOMETRY(name) feature_shape_##name,
+#define FEATURE_TEXTURE(name, Name) feature_texture_##name,
 #define FEATURE_OTHER(name) feature_##name,
 enum Feature {
     MATERIALS(FEATURE_MATERIAL) EMITTERS(FEATURE_EMITTER) GEOMETRIES(FEATURE_GEOMETRY)
-        OTHER_FEATURES(FEATURE_OTHER) feature_count
+        TEXTURES(FEATURE_TEXTURE) OTHER_FEATURES(FEATURE_OTHER) feature_count
 };
 
 #define KIND_EMITTER(name, ...) emitter_##name,
 enum EmitterKind { EMITTERS(KIND_EMITTER) emitter_kind_count };
 #define KIND_GEOMETRY(name) geometry_##name,
 enum GeometryKind { GEOMETRIES(KIND_GEOMETRY) geometry_kind_count };
+#define KIND_TEXTURE(name, Name) texture_##name,
+enum TextureKind { TEXTURES(KIND_TEXTURE) texture_kind_count };
 #define KIND_AOV(name, channels, suffixes) aov_##name,
 enum AovKind { AOVS(KIND_AOV) aov_kind_count };
 #define KIND_FILM_AOV(name, channels, suffixes) film_aov_##name,

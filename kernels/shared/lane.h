@@ -39,6 +39,7 @@ int4 BUILTIN min(int4, int4);
 int8 BUILTIN min(int8, int8);
 #define BUILTINS_OF_WIDTH(n)                                                                       \
     float##n BUILTIN sqrt(float##n);                                                               \
+    float##n BUILTIN floor(float##n);                                                              \
     float##n BUILTIN fma(float##n, float##n, float##n);                                            \
     float##n BUILTIN convert_float##n(int##n);                                                     \
     int##n BUILTIN convert_int##n##_rtz(float##n);
@@ -158,6 +159,7 @@ FN float highestLane(Real v) {
 FN int lowest_bit(uint bits) { return 31 - (int)clz(bits & (0u - bits)); }
 
 #define sqrtR(x) sqrt(x)
+#define floorR(x) floor(x)
 #define fmaR(a, b, c) fma(a, b, c)
 FN Real absR(Real a) { return asReal(asUint(a) & 0x7fffffffu); }
 FN Real copysignR(Real a, Real b) {
@@ -200,6 +202,7 @@ typedef bool Mask;
 FN Int asInt(Uint x) { return (Int)x; }
 FN Uint asUint(Int x) { return (Uint)x; }
 FN Real sqrtR(Real x) { return std::sqrt(x); }
+FN Real floorR(Real x) { return std::floor(x); }
 FN Real fmaR(Real a, Real b, Real c) { return std::fma(a, b, c); }
 FN Real absR(Real a) { return std::fabs(a); }
 FN Real copysignR(Real a, Real b) { return std::copysign(a, b); }

@@ -91,7 +91,7 @@ FN SurfaceInteraction surface_sphere(Primitive p, vec3 on_ray) {
     s.uv = v2(R(0.), R(0.));
     vec3 axis_y = cross3(axis_z, axis_x);
     vec3 in_axes = v3(dot3(outward, axis_x), dot3(outward, axis_y), dot3(outward, axis_z));
-    if (HAS(aovs)) {
+    if (HAS(analytic_uvs)) {
         Real phi = atan2R(in_axes.y, in_axes.x) * R(INV_TWO_PI);
         s.uv = v2(sel(phi < R(0.), phi + 1.f, phi),
                   acosR(maxR(R(-1.), minR(R(1.), in_axes.z))) * R(INV_PI));
@@ -140,7 +140,7 @@ FN SurfaceInteraction surface_disk(Primitive p, Real b1, Real b2) {
     s.tangent = splat3(R(0.));
     s.uv = v2(R(0.), R(0.));
     Real r = sqrtR(b1 * b1 + b2 * b2);
-    if (HAS(aovs)) {
+    if (HAS(analytic_uvs)) {
         Real phi = atan2R(b2, b1) * R(INV_TWO_PI);
         s.uv = v2(r, sel(phi < R(0.), phi + 1.f, phi));
     }

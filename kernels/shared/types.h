@@ -90,6 +90,35 @@
 #define LOBE_FIELDS(X)                                                                             \
     X(int, material) X(float, weight) X(float, below) X(int, behind)
 
+// Of each material the rows of the textures that tell words of its record, where 1 stands; -1: none.
+#define MATERIAL_TEXTURES_FIELDS(X)                                                                \
+    X(int, reflectance) X(int, transmittance)                                                      \
+    X(int, eta) X(int, k)                     /* of a conductor */                                 \
+    X(int, alpha_u) X(int, alpha_v)                                                                \
+    X(int, unused0) X(int, unused1)
+
+// Coordinates are taken to (ux u + uy v + ut, vx u + vy v + vt). An image: its size in texels, the word of `texels` that the first
+// begins with, their decoding. A checkerboard: its colours. An attribute of meshes: the word of `texels` where a word for each shape
+// begins. From that one, counted in primitives from the scene's first, stand three floats of each face, or of each corner of it.
+#define TEXTURE_FIELDS(X)                                                                          \
+    X(int, form)                              /* TEXTURE_* below */                                \
+    X(float, ux) X(float, uy) X(float, ut) X(float, vx) X(float, vy) X(float, vt)                  \
+    X(int, width) X(int, height) X(int, first)                                                     \
+    X(float, r0) X(float, g0) X(float, b0) X(float, r1) X(float, g1) X(float, b1)
+
+#define TEXTURE_KIND(form) ((form) & 15)
+#define TEXTURE_NEAREST 16             // not interpolated
+#define TEXTURE_WRAP(form) ((form) >> 5 & 3) // 0: repeated, 1: mirrored, 2: its border goes on
+#define TEXTURE_WRAP_SHIFT 5
+#define TEXTURE_GREY 128               // one component a texel
+#define TEXTURE_COMPONENT(form) ((form) >> 8 & 3) // 0: bytes, 1: halves, 2: floats
+#define TEXTURE_COMPONENT_SHIFT 8
+#define TEXTURE_LINEAR 1024            // bytes stand for 0 to 1 evenly, not as in sRGB
+#define TEXTURE_OF_FACES 2048          // an attribute of faces, not of vertices
+
+// What bytes of texels stand for: 256 of sRGB, 256 evenly.
+#define BYTE_VALUES 512
+
 // A table of the share of light that single scattering sends on: a row of cosines for each azimuth.
 #define ENERGY_COSINES 129
 #define ENERGY_AZIMUTHS 17
@@ -121,6 +150,7 @@
 #define RECORDS(X)                                                                                 \
     X(IndexedPrimitive, INDEXED_PRIMITIVE_FIELDS, 7) X(Shape, SHAPE_FIELDS, 8)                     \
     X(Material, MATERIAL_FIELDS, 16) X(Lobe, LOBE_FIELDS, 4)                                       \
+    X(MaterialTextures, MATERIAL_TEXTURES_FIELDS, 8) X(Texture, TEXTURE_FIELDS, 16)                \
     X(Light, LIGHT_FIELDS, 16) X(LightNode, LIGHT_NODE_FIELDS, 16)
 // And what is made of that.
 #define MADE_OF_RECORDS(X) X(Primitive, PRIMITIVE_FIELDS, 11) X(Vertex, VERTEX_FIELDS, 15)

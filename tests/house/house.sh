@@ -95,7 +95,7 @@ host_rooms=(
     "scene image"
     "cl"
     "bvh"
-    "flatten scene bvh"
+    "flatten image scene bvh"
     "film scene image flatten"
     "waves scene cl flatten film"
     "twin scene bvh flatten film waves"

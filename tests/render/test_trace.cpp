@@ -90,8 +90,8 @@ TEST_CASE("The trace tells what a point light over a plane does", "[render]") {
     glm::dvec3 to = light.position - in_scene;
     const Triple& n = v.notes.surface->ns;
     double cosine = std::abs(glm::dot(glm::normalize(to), glm::dvec3(n[0], n[1], n[2])));
-    double expected =
-        bsdf.reflectance.r / std::numbers::pi * light.intensity.r * cosine / glm::dot(to, to);
+    double expected = bsdf.reflectance.constant.r / std::numbers::pi * light.intensity.r * cosine /
+                      glm::dot(to, to);
     CHECK(v.light[0] == Approx(expected).epsilon(1e-6));
     CHECK(v.notes.pick->pmf == 1.f);
     CHECK(v.shadow_ray);

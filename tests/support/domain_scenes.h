@@ -53,6 +53,7 @@ inline std::string companions(std::string_view plugin, std::string_view name) {
         return "<float name='diffuse_reflectance' value='1'/>";
     if (plugin == "mask") return white_bsdf;
     if (plugin == "blendbsdf") return fmt::format("{0}{0}", white_bsdf);
+    if (plugin == "mesh_attribute") return "<string name='name' value='vertex_color'/>";
     if (plugin == "aov") return "<string name='aovs' value='d:depth'/>";
     if (plugin == "moment") return "<integrator type='direct'/>";
     if (plugin == "thinlens" && name != "aperture_radius")
@@ -90,6 +91,10 @@ inline std::string domain_scene(const NumberParameter& p, std::string_view plugi
     std::string number = number_element(p, value) + companions(plugin, p.name) + beside;
     std::string whole = fmt::format("<{0} type='{1}'>{2}</{0}>", p.tag, plugin, number);
     if (p.tag == "bsdf") scene.bsdf = whole;
+    if (p.tag == "texture")
+        scene.bsdf = fmt::format("<bsdf type='diffuse'><texture name='reflectance' type='{}'>{}"
+                                 "</texture></bsdf>",
+                                 plugin, number);
     if (p.tag == "integrator") scene.integrator = whole;
     if (p.tag == "sampler") scene.sampler = whole;
     if (p.tag == "rfilter") scene.filter = whole;

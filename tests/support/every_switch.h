@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/render/device_render.h"
+#include "tests/support/example_textures.h"
 #include "tests/support/two_of_every.h"
 
 #include <functional>
@@ -65,6 +66,55 @@ inline void set_soft_terminator(Setup& s, bool on) {
 }
 inline void set_vertex_uvs(Setup& s, bool on) {
     if (!on) change_meshes(s.scene, [](Mesh& m) { m.uvs.clear(); });
+}
+/// Of all that have such a parameter but what is black: lamps.
+template<class Change>
+void change_materials(Setup& s, Change change) {
+    for (std::size_t i = 0; i < s.scene.materials.size(); i++)
+        if (i != black_material)
+            std::visit([&](auto& b) { change(b, i); }, s.scene.materials[i].bsdf);
+}
+inline void set_reflectances(Setup& s, const Textured<Rgb>& color) {
+    change_materials(s, [&](auto& b, std::size_t) {
+        if constexpr (requires { b.reflectance; }) b.reflectance = color;
+        if constexpr (requires { b.specular_reflectance; }) b.specular_reflectance = color;
+    });
+}
+/// Textures in turn.
+inline void set_textures(Setup& s, bool on) {
+    change_materials(s, [&](auto& b, std::size_t i) {
+        if constexpr (requires { b.reflectance; })
+            if (on) b.reflectance = example_textures[i % example_textures.size()]();
+    });
+}
+inline void set_textured_reflectance(Setup& s, bool on) {
+    if (on) set_reflectances(s, example_checkerboard());
+}
+inline void set_textured_transmittance(Setup& s, bool on) {
+    change_materials(s, [&](auto& b, std::size_t) {
+        if constexpr (requires { b.specular_transmittance; })
+            if (on) b.specular_transmittance = example_checkerboard();
+    });
+}
+inline void set_textured_index(Setup& s, bool on) {
+    change_materials(s, [&](auto& b, std::size_t i) {
+        if constexpr (requires { b.index; })
+            if (on) (i % 2 ? b.index.eta : b.index.k) = example_checkerboard();
+    });
+}
+inline void set_textured_roughness(Setup& s, bool on) {
+    if (!on) return;
+    change_rough(s.scene,
+                 [](auto& r) { r.alpha_u = r.alpha_v = as_number(example_checkerboard()); });
+}
+inline void set_texels_byte(Setup& s, bool on) {
+    if (on) set_reflectances(s, textured(example_texels(TexelComponent::byte)));
+}
+inline void set_texels_half(Setup& s, bool on) {
+    if (on) set_reflectances(s, textured(example_texels(TexelComponent::half)));
+}
+inline void set_texels_single(Setup& s, bool on) {
+    if (on) set_reflectances(s, textured(example_texels(TexelComponent::single)));
 }
 inline void set_back_materials(Setup& s, bool on) {
     for (Shape& shape : s.scene.shapes) {
@@ -186,6 +236,9 @@ inline void ask_aov(Setup& s, const char* kind) {
     auto& aovs = s.scene.integrator.aovs;
     auto same = [&](const AovRequest& a) { return a.kind == kind; };
     if (std::none_of(aovs.begin(), aovs.end(), same)) aovs.push_back({kind, kind, {}});
+}
+inline void set_analytic_uvs(Setup& s, bool on) {
+    if (on) ask_aov(s, "uv");
 }
 inline void set_variance(Setup& s, bool on) {
     if (on) ask_aov(s, "variance");

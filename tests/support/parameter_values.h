@@ -49,13 +49,13 @@ private:
     int given_ = 0;
 };
 
-inline void set_unlike(parameter::Color, Rgb& v, Unlike& u) { v = u.color(); }
+inline void set_unlike(parameter::Color, Textured<Rgb>& v, Unlike& u) { v = u.color(); }
 inline void set_unlike(parameter::Number, double& v, Unlike& u) { v = u.share(); }
 inline void set_unlike(parameter::Flag, bool& v, Unlike&) { v = !v; }
 inline void set_unlike(parameter::Index, double& v, Unlike& u) { v = 1 + u.share(); }
 inline void set_unlike(parameter::SeparateIndex, double& v, Unlike& u) { v = 1 + u.share(); }
 inline void set_unlike(parameter::ComplexIndex, parameter::ComplexIndex::Value& v, Unlike& u) {
-    v = {u.color(), 4.0 * u.color()};
+    v = {u.color(), Rgb(4.0 * u.color())};
 }
 inline void set_unlike(parameter::Roughness, parameter::Roughness::Value& v, Unlike& u) {
     v = {MicrofacetDistribution::ggx, u.share(), u.share()};
@@ -78,7 +78,8 @@ inline std::vector<Bsdf> every_unlike_bsdf() {
 
 // The same value in a file.
 
-inline std::string in_file(parameter::Color, std::string_view name, const Rgb& c) {
+inline std::string in_file(parameter::Color, std::string_view name, const Textured<Rgb>& color) {
+    const Rgb& c = color.constant;
     return fmt::format("<rgb name='{}' value='{} {} {}'/>", name, c.r, c.g, c.b);
 }
 inline std::string in_file(parameter::Number, std::string_view name, double v) {
@@ -102,16 +103,16 @@ inline std::string in_file(parameter::Roughness, std::string_view,
                            const parameter::Roughness::Value& v) {
     bool ggx = v.distribution == MicrofacetDistribution::ggx;
     return fmt::format("<string name='distribution' value='{}'/>", ggx ? "ggx" : "beckmann") +
-           in_file(parameter::Number{}, "alpha_u", v.alpha_u) +
-           in_file(parameter::Number{}, "alpha_v", v.alpha_v);
+           in_file(parameter::Number{}, "alpha_u", v.alpha_u.constant) +
+           in_file(parameter::Number{}, "alpha_v", v.alpha_v.constant);
 }
 
 // A value with one of its numbers changed, for each of them.
 
 inline std::vector<double> varied(double v) { return {v * 1.0625}; }
 inline std::vector<bool> varied(bool v) { return {!v}; }
-inline std::vector<Rgb> varied(const Rgb& c) {
-    std::vector<Rgb> colors(3, c);
+inline std::vector<Rgb> varied(const Textured<Rgb>& color) {
+    std::vector<Rgb> colors(3, color.constant);
     for (int channel = 0; channel < 3; channel++)
         colors[channel][channel] *= 1.0625;
     return colors;
@@ -126,8 +127,8 @@ inline std::vector<parameter::ComplexIndex::Value> varied(const parameter::Compl
 }
 inline std::vector<parameter::Roughness::Value> varied(const parameter::Roughness::Value& v) {
     return {{MicrofacetDistribution::beckmann, v.alpha_u, v.alpha_v},
-            {v.distribution, v.alpha_u * 1.0625, v.alpha_v},
-            {v.distribution, v.alpha_u, v.alpha_v * 1.0625}};
+            {v.distribution, v.alpha_u.constant * 1.0625, v.alpha_v},
+            {v.distribution, v.alpha_u, v.alpha_v.constant * 1.0625}};
 }
 
 /// A record as lanes see it.

@@ -153,6 +153,7 @@ void walk(std::string_view tag) {
 
 TEST_CASE("Domains: numbers of emitters", "[domains]") { walk("emitter"); }
 TEST_CASE("Domains: numbers of bsdfs", "[domains]") { walk("bsdf"); }
+TEST_CASE("Domains: numbers of textures", "[domains]") { walk("texture"); }
 TEST_CASE("Domains: numbers of shapes", "[domains]") { walk("shape"); }
 TEST_CASE("Domains: numbers of sensors", "[domains]") { walk("sensor"); }
 TEST_CASE("Domains: numbers of films", "[domains]") { walk("film"); }

@@ -121,7 +121,7 @@ Truth meet(const Scene& scene, const Ray& r) {
         const Shape& shape = scene.shapes[i];
         bool back = glm::dot(h.ng, r.d) > 0 && shape.material_back != no_material;
         const Material& m = scene.materials[back ? shape.material_back : shape.material_front];
-        nearest.albedo = std::get<DiffuseBsdf>(m.bsdf).reflectance;
+        nearest.albedo = std::get<DiffuseBsdf>(m.bsdf).reflectance.constant;
     }
     return nearest;
 }

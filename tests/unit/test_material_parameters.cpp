@@ -27,12 +27,19 @@ struct Words {
 
 // What each parameter is to the device, by its name.
 
-void expect_reflectance(Words& w, const Rgb& c) { w.r = c.r, w.g = c.g, w.b = c.b; }
-void expect_specular_reflectance(Words& w, const Rgb& c) { expect_reflectance(w, c); }
-void expect_specular_transmittance(Words& w, const Rgb& c) { w.tr = c.r, w.tg = c.g, w.tb = c.b; }
+void expect_reflectance(Words& w, const Textured<Rgb>& color) {
+    const Rgb& c = color.constant;
+    w.r = c.r, w.g = c.g, w.b = c.b;
+}
+void expect_specular_reflectance(Words& w, const Textured<Rgb>& c) { expect_reflectance(w, c); }
+void expect_specular_transmittance(Words& w, const Textured<Rgb>& color) {
+    const Rgb& c = color.constant;
+    w.tr = c.r, w.tg = c.g, w.tb = c.b;
+}
 void expect_index(Words& w, const parameter::ComplexIndex::Value& v) {
-    w.er = v.eta.r, w.eg = v.eta.g, w.eb = v.eta.b;
-    w.kr = v.k.r, w.kg = v.k.g, w.kb = v.k.b;
+    const Rgb &eta = v.eta.constant, &k = v.k.constant;
+    w.er = eta.r, w.eg = eta.g, w.eb = eta.b;
+    w.kr = k.r, w.kg = k.g, w.kb = k.b;
 }
 /// eta^2 - 1 from outside and from inside, in two floats each.
 void expect_eta(Words& w, double eta) {
@@ -43,7 +50,7 @@ void expect_eta(Words& w, double eta) {
 }
 void expect_roughness(Words& w, const parameter::Roughness::Value& v) {
     w.distribution = v.distribution == MicrofacetDistribution::beckmann ? 1 : 0;
-    w.alpha_u = v.alpha_u, w.alpha_v = v.alpha_v;
+    w.alpha_u = v.alpha_u.constant, w.alpha_v = v.alpha_v.constant;
 }
 void expect_alpha(Words& w, double alpha) { w.alpha_u = alpha; }
 void expect_diffuse_reflectance(const Words&, const Rgb&) {}
@@ -60,10 +67,11 @@ void expect_together(Words& w, const RoughConductorBsdf& b) {
     for (int i = 0; i < steps; i++)
         for (int channel = 0; channel < 3; channel++) {
             double c = (i + 0.5) / steps;
-            sums[channel] +=
-                2 * c / steps * f64::fresnel_conductor(c, b.index.eta[channel], b.index.k[channel]);
+            sums[channel] += 2 * c / steps *
+                             f64::fresnel_conductor(c, b.index.eta.constant[channel],
+                                                    b.index.k.constant[channel]);
         }
-    const Rgb& scale = b.specular_reflectance;
+    const Rgb& scale = b.specular_reflectance.constant;
     w.tr = sums[0] * scale.r, w.tg = sums[1] * scale.g, w.tb = sums[2] * scale.b;
 }
 

@@ -133,7 +133,7 @@ TEST_CASE("Texture coordinates are read for lobes that lie along them, and not f
             bool anisotropic = std::visit(
                 [](const auto& b) {
                     if constexpr (requires { b.roughness; })
-                        return b.roughness.alpha_u != b.roughness.alpha_v;
+                        return !(b.roughness.alpha_u == b.roughness.alpha_v);
                     return false;
                 },
                 bsdf);

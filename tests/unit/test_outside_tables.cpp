@@ -87,9 +87,9 @@ TEST_CASE("Tables: every conductor's index", "[tables]") {
         INFO(name);
         ConductorBsdf metal = conductor("<string name=\"material\" value=\"" + name + "\"/>");
         for (int c = 0; c < 3; c++) {
-            CHECK(metal.index.eta[c] ==
+            CHECK(metal.index.eta.constant[c] ==
                   Approx(values[c].get<double>()).epsilon(2e-6).margin(1e-12));
-            CHECK(metal.index.k[c] ==
+            CHECK(metal.index.k.constant[c] ==
                   Approx(values[3 + c].get<double>()).epsilon(2e-6).margin(1e-12));
         }
     }

@@ -80,7 +80,7 @@ std::vector<Precedence> table() {
         return [member](const Scene& s) { return text(static_cast<int>(s.sampler.*member)); };
     };
     auto grey = [](const Scene& s) {
-        return text(std::get<DiffuseBsdf>(s.materials.at(0).bsdf).reflectance.r);
+        return text(std::get<DiffuseBsdf>(s.materials.at(0).bsdf).reflectance.constant.r);
     };
     auto compensation = [](const Scene& s) {
         return text(std::get<RoughConductorBsdf>(s.materials.at(1).bsdf).energy_compensation);

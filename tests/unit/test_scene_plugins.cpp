@@ -86,8 +86,8 @@ TEST_CASE("scene plugins: bsdf parameters") {
     CHECK(glass.specular_transmittance == Rgb(0.25, 0.5, 0.75));
     const auto gold =
         bsdf_of<ConductorBsdf>("conductor", "<string name=\"material\" value=\"Au\"/>");
-    CHECK(gold.index.eta.x == Approx(0.143035978));
-    CHECK(gold.index.k.z == Approx(1.60335922));
+    CHECK(gold.index.eta.constant.x == Approx(0.143035978));
+    CHECK(gold.index.k.constant.z == Approx(1.60335922));
     CHECK(
         bsdf_of<ConductorBsdf>("conductor", "<string name=\"material\" value=\"none\"/>").index.k ==
         Rgb(1.0));

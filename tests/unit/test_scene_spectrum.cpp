@@ -11,7 +11,7 @@ namespace {
 Rgb reflectance_of(const std::string& element) {
     const Scene scene =
         load_body("<shape type=\"sphere\"><bsdf type=\"diffuse\">" + element + "</bsdf></shape>");
-    return std::get<DiffuseBsdf>(scene.materials.at(0).bsdf).reflectance;
+    return std::get<DiffuseBsdf>(scene.materials.at(0).bsdf).reflectance.constant;
 }
 
 Rgb reflectance_of_spectrum(const std::string& value) {
@@ -64,7 +64,7 @@ TEST_CASE("scene spectrum: a colour outside sRGB goes to its border and is noted
         load_body("<bsdf type=\"diffuse\" id=\"a\">\n<spectrum name=\"reflectance\" "
                   "value=\"400:0.0, 500:0.0, 520:0.9, 700:0.0\"/></bsdf>"
                   "<shape type=\"sphere\"><ref id=\"a\"/></shape>");
-    check_color(std::get<DiffuseBsdf>(scene.materials[0].bsdf).reflectance,
+    check_color(std::get<DiffuseBsdf>(scene.materials[0].bsdf).reflectance.constant,
                 {0.40498095750808716, 0.7055762410163879, 0.0}, float_tolerance);
     REQUIRE(!scene.notes.empty());
     CHECK_THAT(scene.notes[0], Contains("scene.xml:3") && Contains("gamut"));
@@ -89,9 +89,9 @@ TEST_CASE("scene spectrum: indices of refraction have no upper bound") {
                   "<spectrum name=\"eta\" value=\"400:1.5,700:1.5\"/>"
                   "<spectrum name=\"k\" value=\"400:2,500:3,600:4,700:5\"/></bsdf></shape>");
     const auto& bsdf = std::get<ConductorBsdf>(scene.materials.at(0).bsdf);
-    check_color(bsdf.index.eta, {1.4930130243301392, 1.4996346235275269, 1.492363691329956},
-                2 * float_tolerance);
-    check_color(bsdf.index.k, {4.403128623962402, 3.428879499435425, 2.397944450378418},
+    check_color(bsdf.index.eta.constant,
+                {1.4930130243301392, 1.4996346235275269, 1.492363691329956}, 2 * float_tolerance);
+    check_color(bsdf.index.k.constant, {4.403128623962402, 3.428879499435425, 2.397944450378418},
                 4 * float_tolerance);
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("scene spectrum: from a file") {
                                        "</shape>"));
     };
     const Scene scene = load_scene(file("a.spd"));
-    check_color(std::get<DiffuseBsdf>(scene.materials[0].bsdf).reflectance,
+    check_color(std::get<DiffuseBsdf>(scene.materials[0].bsdf).reflectance.constant,
                 {0.9564427137374878, 0.4965347945690155, 0.10015614330768585}, float_tolerance);
     folder.write("b.spd", "400 1\n500 1 2\n");
     CHECK_THAT(refusal_of(file("b.spd")), Contains("b.spd:2"));
@@ -131,7 +131,9 @@ TEST_CASE("scene spectrum: reflectances outside [0, 1] and negative emission are
     refused("<float name=\"reflectance\" value=\"1.01\"/>", "0 to 1");
     refused("<spectrum name=\"reflectance\" value=\"400:0.5, 500:2\"/>", "0 to 1");
     refused("<vector name=\"reflectance\" value=\"0 0 0\"/>", "<vector>");
-    refused("<texture name=\"reflectance\" type=\"bitmap\"/>", "\"bitmap\"");
+    refused("<texture name=\"reflectance\" type=\"rawconstant\"><float name=\"value\" "
+            "value=\"1.2\"/></texture>",
+            "1.2");
     CHECK_THAT(
         refusal_of_body("<emitter type=\"point\">\n<rgb name=\"intensity\" value=\"-1 0 0\"/>"
                         "</emitter>"),

@@ -50,6 +50,28 @@ V blended(const std::vector<V>& values, const std::array<std::uint32_t, 4>& v,
     return sum;
 }
 
+/// The attribute of one vertex more.
+void blend(MeshAttribute& attribute, const std::array<std::uint32_t, 4>& v,
+           const std::array<double, 4>& weights) {
+    const auto channels = static_cast<std::size_t>(attribute.channels);
+    for (std::size_t c = 0; c < channels; ++c) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < 4; ++k)
+            sum += double{attribute.values[v[k] * channels + c]} * weights[k];
+        attribute.values.push_back(static_cast<float>(sum));
+    }
+}
+
+/// The values of vertices at which `keep` is set.
+void keep_values(MeshAttribute& attribute, const std::vector<bool>& keep) {
+    const auto channels = static_cast<std::size_t>(attribute.channels);
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < keep.size(); ++i)
+        for (std::size_t c = 0; keep[i] && c < channels; ++c)
+            attribute.values[to++] = attribute.values[i * channels + c];
+    attribute.values.resize(to);
+}
+
 bool has_no_area(const MeshData& mesh, std::size_t first_triangle) {
     for (std::size_t i = first_triangle; i < mesh.triangles.size(); ++i) {
         const glm::uvec3& t = mesh.triangles[i];
@@ -114,6 +136,8 @@ void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, const Sour
         if (!mesh.uvs.empty()) mesh.uvs.push_back(blended(mesh.uvs, ends, crossing.weights));
         if (!mesh.normals.empty())
             mesh.normals.push_back(blended_normal(mesh.normals, ends, crossing.weights));
+        for (MeshAttribute& attribute : mesh.attributes)
+            if (!attribute.of_faces()) blend(attribute, ends, crossing.weights);
     }
     for (const glm::uvec3& t : cut.triangles)
         mesh.triangles.emplace_back(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
@@ -135,6 +159,8 @@ void MeshBuilder::drop_unused_vertices() {
     mesh.positions = kept(mesh.positions, used, count);
     mesh.normals = kept(mesh.normals, used, count);
     mesh.uvs = kept(mesh.uvs, used, count);
+    for (MeshAttribute& attribute : mesh.attributes)
+        if (!attribute.of_faces()) keep_values(attribute, used);
 }
 
 void MeshBuilder::drop_unusable_attributes() {

@@ -139,7 +139,11 @@ Mesh make_mesh(MeshData data, const MeshOptions& options, const SourceLocation& 
         notes.push_back(place.to_string() + ": " + note);
     if (data.triangles.empty())
         notes.push_back(place.to_string() + ": the mesh holds no triangle; it is not drawn");
-    Mesh mesh{std::move(data.positions), {}, std::move(data.uvs), std::move(data.triangles)};
+    Mesh mesh{std::move(data.positions),
+              {},
+              std::move(data.uvs),
+              std::move(data.triangles),
+              std::move(data.attributes)};
     for (glm::dvec3& p : mesh.positions) {
         p = glm::dvec3(options.to_world * glm::dvec4(p, 1.0));
         if (!is_in_range(p)) refuse(place, "a vertex leaves the range of numbers under to_world");

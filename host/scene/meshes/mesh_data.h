@@ -18,6 +18,7 @@ struct MeshData {
     std::vector<glm::dvec3> normals;
     std::vector<glm::dvec2> uvs;
     std::vector<glm::uvec3> triangles;
+    std::vector<MeshAttribute> attributes;
     std::vector<std::string> notes; ///< what was skipped
 };
 

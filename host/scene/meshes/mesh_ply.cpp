@@ -7,6 +7,7 @@
 #include "host/scene/file_finder.h"
 #include "host/scene/meshes/data_text.h"
 #include "host/scene/meshes/mesh_builder.h"
+#include "host/scene/meshes/ply_attributes.h"
 #include "host/scene/meshes/ply_data.h"
 #include "host/scene/text.h"
 
@@ -94,17 +95,24 @@ void check_count(const PlyData& data, const PlyElement& element, const SourceLoc
 void read_vertices(PlyData& data, const PlyElement& element, bool flip_v, MeshBuilder& builder,
                    const SourceLocation& place) {
     const std::vector<int> slots = vertex_slots(element, place);
+    std::vector<bool> taken(slots.size());
     for (std::size_t k = 0; k < slots.size(); ++k)
-        if (slots[k] < 0) note_skipped(builder, element, element.properties[k].name);
+        taken[k] = vertex_slot(element.properties[k]) >= 0;
+    PlyAttributeRow row(attributes_of(element, taken));
+    for (std::size_t k = 0; k < slots.size(); ++k)
+        if (slots[k] < 0 && !row.has(k)) note_skipped(builder, element, element.properties[k].name);
     const bool normals = has_slot(slots, 3), uvs = has_slot(slots, 6);
     MeshData& mesh = builder.mesh;
+    mesh.attributes = row.attributes();
     mesh.positions.reserve(element.count);
     if (normals) mesh.normals.reserve(element.count);
     if (uvs) mesh.uvs.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
         std::array<double, 8> v{};
         for (std::size_t k = 0; k < slots.size(); ++k) {
-            if (slots[k] < 0)
+            if (row.has(k))
+                row.set(k, data.next(element.properties[k].type));
+            else if (slots[k] < 0)
                 skip(data, element.properties[k]);
             else
                 v[static_cast<std::size_t>(slots[k])] = data.next(element.properties[k].type);
@@ -112,6 +120,7 @@ void read_vertices(PlyData& data, const PlyElement& element, bool flip_v, MeshBu
         mesh.positions.emplace_back(v[0], v[1], v[2]);
         if (normals) mesh.normals.push_back(normal_in_file({v[3], v[4], v[5]}));
         if (uvs) mesh.uvs.emplace_back(v[6], flip_v ? 1.0 - v[7] : v[7]);
+        row.add_to(mesh.attributes, 0, 1);
     }
 }
 
@@ -137,18 +146,30 @@ void read_faces(PlyData& data, const PlyElement& element, MeshBuilder& builder,
         std::count_if(element.properties.begin(), element.properties.end(), is_corners);
     if (lists != 1 && element.count > 0)
         refuse(place, "the faces need one list \"vertex_indices\" (or \"vertex_index\")");
-    for (const PlyProperty& property : element.properties)
-        if (!is_corners(property)) note_skipped(builder, element, property.name);
+    PlyAttributeRow row(
+        attributes_of(element, std::vector<bool>(element.properties.size(), false)));
+    for (std::size_t k = 0; k < element.properties.size(); ++k)
+        if (!is_corners(element.properties[k]) && !row.has(k))
+            note_skipped(builder, element, element.properties[k].name);
+    MeshData& mesh = builder.mesh;
+    const std::size_t first = mesh.attributes.size();
+    mesh.attributes.insert(mesh.attributes.end(), row.attributes().begin(), row.attributes().end());
     std::vector<std::uint32_t> corners;
-    for (std::uint64_t i = 0; i < element.count; ++i)
-        for (const PlyProperty& property : element.properties) {
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+        const std::size_t triangles = mesh.triangles.size();
+        for (std::size_t k = 0; k < element.properties.size(); ++k) {
+            const PlyProperty& property = element.properties[k];
             if (is_corners(property)) {
-                read_corners(data, property, builder.mesh.positions.size(), corners);
+                read_corners(data, property, mesh.positions.size(), corners);
                 builder.add_face(corners, data.place());
+            } else if (row.has(k)) {
+                row.set(k, data.next(property.type));
             } else {
                 skip(data, property);
             }
         }
+        row.add_to(mesh.attributes, first, mesh.triangles.size() - triangles);
+    }
 }
 
 /// Elements of other names that hold surfaces: leaving them out would lose geometry.

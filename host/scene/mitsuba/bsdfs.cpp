@@ -65,8 +65,9 @@ double read_index(Properties& p, std::string_view name, double missing) {
 
 // One function a kind of parameter: its value, `missing` where the file has none.
 
-Rgb read(parameter::Color, Properties& p, std::string_view name, const Rgb& missing) {
-    return p.color(name, missing, SpectrumUse::reflectance);
+Textured<Rgb> read(parameter::Color, Properties& p, std::string_view name,
+                   const Textured<Rgb>& missing) {
+    return p.textured_color(name, missing, SpectrumUse::reflectance);
 }
 
 double read(parameter::Number, Properties& p, std::string_view name, double missing) {
@@ -96,10 +97,11 @@ double read(parameter::SeparateIndex, Properties& p, std::string_view name, doub
 }
 
 /// Mitsuba's formulas square them: of measured metals some are a little below zero.
-Rgb read_magnitudes(Properties& p, std::string_view name, const Rgb& missing) {
-    const Rgb value = p.color(name, missing, SpectrumUse::unbounded);
-    const Rgb magnitude = glm::abs(value);
-    if (magnitude != value)
+Textured<Rgb> read_magnitudes(Properties& p, std::string_view name, const Textured<Rgb>& missing) {
+    const Textured<Rgb> value = p.textured_color(name, missing, SpectrumUse::unbounded);
+    if (value.texture) return value;
+    const Rgb magnitude = glm::abs(value.constant);
+    if (magnitude != value.constant)
         p.note(name, fmt::format("{} is negative; its magnitude is used, as in Mitsuba",
                                  in_quotes(name)));
     return magnitude;
@@ -131,21 +133,30 @@ parameter::Roughness::Value read(parameter::Roughness, Properties& p, std::strin
         p.note("sample_visible", "\"sample_visible\" is taken as true; only the noise differs");
     const bool split = p.has("alpha_u") || p.has("alpha_v");
     if (!split) {
-        const double alpha = p.number("alpha", missing.alpha_u);
+        const Textured<double> alpha = p.textured_number("alpha", missing.alpha_u);
         return {distribution, alpha, alpha};
     }
     if (p.has("alpha"))
         p.refuse_value("alpha", "given together with \"alpha_u\" or \"alpha_v\"",
                        "\"alpha\", or both of the others");
-    const double alpha_u = p.required_number("alpha_u");
-    return {distribution, alpha_u, p.required_number("alpha_v")};
+    const auto required = [&](const char* name) {
+        return p.has(name) ? p.textured_number(name, {}) : p.required_number(name);
+    };
+    const Textured<double> alpha_u = required("alpha_u");
+    return {distribution, alpha_u, required("alpha_v")};
 }
 
 /// Measured in white furnaces (docs/accuracy.md): where the energy table is too coarse. `rougher`
 /// is what the larger roughness may be.
-void note_compensation(Properties& p, const parameter::Roughness::Value& r, double rougher) {
+void note_compensation(Properties& p, const auto& b, double rougher) {
+    const parameter::Roughness::Value& r = b.roughness;
+    if (!b.energy_compensation) return;
+    if (has_textured_lobe(b)) {
+        p.note("", "there is no energy compensation where roughness or index are textures");
+        return;
+    }
     constexpr double ratio = 10.0;
-    const auto [low, high] = std::minmax(r.alpha_u, r.alpha_v);
+    const auto [low, high] = std::minmax(r.alpha_u.constant, r.alpha_v.constant);
     if (low == high || (high <= ratio * low && high <= rougher)) return;
     p.note("alpha_u", fmt::format("energy compensation is off by more than 0.3 % where "
                                   "\"alpha_u\" and \"alpha_v\" differ more than {} times, or one "
@@ -156,13 +167,9 @@ void note_compensation(Properties& p, const parameter::Roughness::Value& r, doub
 /// What is said of several parameters of a kind together; of most nothing.
 void note_together(const Properties&, const auto&) {}
 
-void note_together(Properties& p, const RoughConductorBsdf& b) {
-    if (b.energy_compensation) note_compensation(p, b.roughness, 1.0);
-}
+void note_together(Properties& p, const RoughConductorBsdf& b) { note_compensation(p, b, 1.0); }
 
-void note_together(Properties& p, const RoughDielectricBsdf& b) {
-    if (b.energy_compensation) note_compensation(p, b.roughness, 0.3);
-}
+void note_together(Properties& p, const RoughDielectricBsdf& b) { note_compensation(p, b, 0.3); }
 
 } // namespace
 

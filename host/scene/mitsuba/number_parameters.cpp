@@ -39,6 +39,9 @@ constexpr Domain field_of_view{
     .lowest = 1e-9, .highest = 180, .below_highest = true, .unit = "degrees"};
 constexpr Domain half_angle = strictly_between(0, 180).in("degrees");
 
+/// Single precision ends there; the parameter that a texture stands for has a domain of its own.
+constexpr Domain texture_value = between(-3.4e38, 3.4e38).zero_below(least_normal);
+
 constexpr Domain wavelength = between(1e-3, 1e9).in("nanometres");
 
 constexpr std::string_view power = "a power that single precision holds in the scene's unit";
@@ -113,6 +116,11 @@ const NumberParameter other_parameters[] = {
     {"emitter", "spot", "cutoff_angle", real, half_angle},
     {"emitter", "spot", "beam_width", real, between(0, 180).in("degrees"), "up to cutoff_angle"},
     {"emitter", "point spot directional constant area", "sampling_weight", real, greater_than(0)},
+
+    {"texture", "checkerboard", "color0", color, texture_value, "what its parameter takes"},
+    {"texture", "checkerboard", "color1", color, texture_value, "what its parameter takes"},
+    {"texture", "mesh_attribute", "scale", real, texture_value, "what its parameter takes"},
+    {"texture", "rawconstant", "value", vector, texture_value, "what its parameter takes"},
 
     {"shape", "sphere cylinder", "radius", real, size},
     {"shape", "cylinder", "p0", vector, coordinate, "not p1"},

@@ -2,6 +2,7 @@
 #include "host/scene/mitsuba/properties.h"
 
 #include "host/scene/mitsuba/number_parameters.h"
+#include "host/scene/mitsuba/textures.h"
 #include "host/scene/text.h"
 
 #include <fmt/format.h>
@@ -42,7 +43,12 @@ const Parameter* Properties::find(std::string_view name) const {
 
 bool Properties::has(std::string_view name) {
     if (!contains(known_, name)) known_.emplace_back(name);
-    return find(name) != nullptr;
+    return find(name) || std::any_of(object_.children.begin(), object_.children.end(),
+                                     [&](const Child& child) { return is_texture(child, name); });
+}
+
+bool Properties::is_texture(const Child& child, std::string_view name) const {
+    return child.name == name && target(child).tag == "texture";
 }
 
 void Properties::knows(std::initializer_list<std::string_view> names) {
@@ -51,6 +57,8 @@ void Properties::knows(std::initializer_list<std::string_view> names) {
 }
 
 const SourceLocation& Properties::location_of(std::string_view name) const {
+    for (const Child& child : object_.children)
+        if (is_texture(child, name)) return child.location;
     const Parameter* const parameter = find(name);
     return parameter ? parameter->location : object_.location;
 }
@@ -176,6 +184,12 @@ glm::dvec3 Properties::vector(std::string_view name, const glm::dvec3& missing) 
     return {checked(name, value->x), checked(name, value->y), checked(name, value->z)};
 }
 
+glm::dvec3 Properties::required_numbers(std::string_view name) {
+    const Parameter* const parameter = find(name);
+    if (parameter && std::holds_alternative<glm::dvec3>(parameter->value)) return vector(name, {});
+    return glm::dvec3(required_number(name));
+}
+
 glm::dmat4 Properties::transform(std::string_view name) {
     const auto* const value = take_as<glm::dmat4>(name, "<transform>");
     return value ? *value : glm::dmat4(1.0);
@@ -206,6 +220,47 @@ Rgb Properties::color(std::string_view name, const Rgb& missing, SpectrumUse use
     return Rgb(number(name, 0.0));
 }
 
+const Object* Properties::take_texture(std::string_view name) {
+    const Child* found = nullptr;
+    for (const Child& child : object_.children) {
+        if (!is_texture(child, name)) continue;
+        if (found || find(name))
+            refuse(child.location,
+                   fmt::format("{}: parameter {} is given twice", title(), in_quotes(name)));
+        found = &child;
+    }
+    if (!found) return nullptr;
+    asked_.emplace_back(name);
+    known_.emplace_back(name);
+    textures_.emplace_back(name);
+    return &target(*found);
+}
+
+/// A texture that is the same everywhere has been told apart before.
+TextureUse Properties::texture_use(std::string_view name, const Object& texture) {
+    return {std::make_shared<const Texture>(read_texture(document_, texture, notes_)),
+            texture.location, fmt::format("{}: parameter {}", title(), in_quotes(name)),
+            domain(name)};
+}
+
+Textured<Rgb> Properties::textured_color(std::string_view name, const Textured<Rgb>& missing,
+                                         SpectrumUse use) {
+    const Object* const texture = take_texture(name);
+    if (!texture) return color(name, missing.constant, use);
+    if (const auto same = read_constant_texture(document_, *texture, notes_))
+        return Rgb(checked(name, same->r), checked(name, same->g), checked(name, same->b));
+    return Textured<Rgb>(texture_use(name, *texture));
+}
+
+Textured<double> Properties::textured_number(std::string_view name,
+                                             const Textured<double>& missing) {
+    const Object* const texture = take_texture(name);
+    if (!texture) return number(name, missing.constant);
+    if (const auto same = read_constant_texture(document_, *texture, notes_))
+        return checked(name, luminance(*same));
+    return Textured<double>(texture_use(name, *texture));
+}
+
 std::vector<const Child*> Properties::children(std::string_view tag) {
     asked_tags_.emplace_back(tag);
     std::vector<const Child*> result;
@@ -234,7 +289,7 @@ void Properties::finish() {
                                    in_quotes(parameter.spelling), joined(known_)));
             });
     for (const Child& child : object_.children)
-        if (!contains(asked_tags_, target(child).tag))
+        if (!contains(asked_tags_, target(child).tag) && !contains(textures_, child.name))
             problems_.attempt([&] {
                 refuse(child.location,
                        fmt::format("{} cannot hold the {} plugin {} (accepted: {})", title(),

@@ -23,6 +23,7 @@ public:
     const Object& object() const { return object_; }
     const SourceLocation& location() const { return object_.location; }
 
+    /// As a value or as a texture.
     bool has(std::string_view name);
     /// Names that the plugin has and the reader may not come to.
     void knows(std::initializer_list<std::string_view> names);
@@ -41,14 +42,21 @@ public:
     std::size_t choice(std::string_view name, std::string_view missing,
                        std::initializer_list<std::string_view> accepted);
     glm::dvec3 vector(std::string_view name, const glm::dvec3& missing);
+    /// A vector, or a number three times; refuses to be without.
+    glm::dvec3 required_numbers(std::string_view name);
     glm::dmat4 transform(std::string_view name);
     Rgb color(std::string_view name, const Rgb& missing, SpectrumUse use);
+    /// A colour, or the texture of that name.
+    Textured<Rgb> textured_color(std::string_view name, const Textured<Rgb>& missing,
+                                 SpectrumUse use);
+    Textured<double> textured_number(std::string_view name, const Textured<double>& missing);
 
     /// Takes the plugins of kind `tag` inside this one, in their order.
     std::vector<const Child*> children(std::string_view tag);
     /// The one plugin of kind `tag`, or null; refuses a second one.
     const Object* only_child(std::string_view tag);
     const Object& target(const Child& child) const { return document_.objects[child.object]; }
+    const FileFinder& files() const { return document_.files; }
 
     /// One line for the user, with this plugin's (or the parameter's) place.
     void note(std::string_view about, const std::string& message);
@@ -70,6 +78,9 @@ private:
     [[noreturn]] void refuse_at(const SourceLocation& place, const std::string& message) const;
     std::string spelling(std::string_view name) const;
     const Parameter* take(std::string_view name);
+    bool is_texture(const Child& child, std::string_view name) const;
+    const Object* take_texture(std::string_view name);
+    TextureUse texture_use(std::string_view name, const Object& texture);
     const Parameter* find(std::string_view name) const;
     const Domain& domain(std::string_view name) const;
     template<typename T>
@@ -82,6 +93,7 @@ private:
     std::vector<std::string> asked_;      ///< names of parameters that were read
     std::vector<std::string> known_;      ///< and of those that could have been
     std::vector<std::string> asked_tags_; ///< kinds of children
+    std::vector<std::string> textures_;   ///< names of children that were read
 };
 
 } // namespace parhelion::mitsuba

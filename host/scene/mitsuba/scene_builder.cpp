@@ -1,15 +1,18 @@
 // From a Mitsuba document to a Scene.
 #include "host/scene/mitsuba/scene_builder.h"
 
+#include "host/scene/material_textures.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
 #include "host/scene/mitsuba/sensor_choice.h"
+#include "host/scene/mitsuba/textures.h"
 #include "host/scene/mitsuba/xml_file.h"
 #include "host/scene/text.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace parhelion::mitsuba {
 
@@ -149,6 +152,8 @@ void SceneBuilder::check_definition(const Child& child, const Object& object) {
         static_cast<void>(read_filter(document_, object, scene_.notes));
     else if (object.tag == "sampler")
         static_cast<void>(read_sampler(document_, object, scene_.notes));
+    else if (object.tag == "texture")
+        check_texture(document_, object, scene_.notes);
     else
         refuse(child.location, object.tag + " plugin " + in_quotes(object.plugin) +
                                    " is not supported (<scene> holds bsdf, emitter, integrator, "
@@ -173,6 +178,27 @@ void refuse_only_empty(const Scene& scene) {
     refuse(place, reasons);
 }
 
+/// What no texture names is of no use: scanned meshes have colours that cost as much as their
+/// points.
+void drop_unread_attributes(Scene& scene) {
+    std::set<std::string> read;
+    for (const Material& material : scene.materials)
+        each_texture(material.bsdf, [&](const TextureUse& use) {
+            const auto* const a = std::get_if<MeshAttributeTexture>(&use.texture->kind);
+            if (a) read.insert(a->name);
+        });
+    for (Shape& shape : scene.shapes) {
+        Mesh* const mesh = std::get_if<Mesh>(&shape.geometry);
+        if (!mesh) continue;
+        std::erase_if(mesh->attributes, [&](const MeshAttribute& a) {
+            if (read.contains(a.name)) return false;
+            scene.notes.push_back(shape.location.to_string() + ": attribute " + in_quotes(a.name) +
+                                  " of the mesh is not used");
+            return true;
+        });
+    }
+}
+
 Scene SceneBuilder::build(const std::string& file) {
     scene_.file = file;
     const Object& root = document_.objects.front();
@@ -185,6 +211,7 @@ Scene SceneBuilder::build(const std::string& file) {
     problems_.attempt([&] { set_sensor(file); });
     problems_.throw_if_any();
     refuse_only_empty(scene_);
+    drop_unread_attributes(scene_);
     if (!integrator_)
         scene_.notes.push_back(file + ": the scene has no <integrator>; \"path\" is used");
     scene_.files = document_.files.found();

@@ -1,0 +1,71 @@
+"""Writes the small images of the comparison scenes (PNG of 8 bits and PFM), and a mesh with colours of its own;
+deterministic, no input."""
+
+import pathlib
+import struct
+import zlib
+
+FOLDER = pathlib.Path(__file__).parent / "scenes" / "images"
+
+
+def level(n):
+    """0 to 255, no two neighbours alike."""
+    return (n * 97 + n * n * 31) % 256
+
+
+def png(width, height, components):
+    """Rows of texels, of one component (grey) or three."""
+    row = width * components
+    rows = b"".join(
+        b"\0" + bytes(level(y * row + k) for k in range(row)) for y in range(height)
+    )
+
+    def chunk(name, content):
+        body = name + content
+        return struct.pack(">I", len(content)) + body + struct.pack(">I", zlib.crc32(body))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 0 if components == 1 else 2, 0, 0, 0)
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", header)
+        + chunk(b"IDAT", zlib.compress(rows, 9))
+        + chunk(b"IEND", b"")
+    )
+
+
+def pfm(width, height):
+    """Colours from 0.1 to 0.9, the bottom row first."""
+    values = [0.1 + 0.8 * level(k) / 255 for k in range(3 * width * height)]
+    return f"PF\n{width} {height}\n-1.0\n".encode() + struct.pack(f"<{len(values)}f", *values)
+
+
+def colored_mesh(side):
+    """A square of side x side pairs of triangles with colours at its vertices and numbers of its faces (PLY)."""
+    vertices, faces = [], []
+    for row in range(side + 1):
+        for column in range(side + 1):
+            n = row * (side + 1) + column
+            color = [0.1 + 0.8 * level(3 * n + c) / 255 for c in range(3)]
+            vertices.append([2 * column / side - 1, 2 * row / side - 1, 0, *color])
+            if row < side and column < side:
+                faces += [(n, n + 1, n + side + 2), (n, n + side + 2, n + side + 1)]
+    names = ["x", "y", "z", "tint_0", "tint_1", "tint_2"]
+    lines = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}"]
+    lines += [f"property float {name}" for name in names]
+    lines += [f"element face {len(faces)}", "property list uchar int vertex_indices"]
+    lines += ["property float grey_0", "end_header"]
+    lines += [" ".join(f"{v:g}" for v in vertex) for vertex in vertices]
+    lines += [f"3 {a} {b} {c} {0.1 + 0.8 * level(a + 7 * b) / 255:g}" for a, b, c in faces]
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    FOLDER.mkdir(exist_ok=True)
+    (FOLDER / "colors.png").write_bytes(png(7, 5, 3))
+    (FOLDER / "grey.png").write_bytes(png(6, 4, 1))
+    (FOLDER / "floats.pfm").write_bytes(pfm(4, 6))
+    (FOLDER.parent / "meshes" / "colored.ply").write_text(colored_mesh(3))
+
+
+if __name__ == "__main__":
+    main()
