@@ -21,7 +21,7 @@ kernel void shade(KERNEL_PARAMETERS) {
         PathVertex v = load_vertex(state_place(path_state, stride, at), end - at, w.scene);
         see(w, v);
         Shading s = shading_at(w, v);
-        if (HAS(aovs) && depth == 0) write_aovs(w, v, s.material);
+        if (HAS(aovs) && depth == 0) write_aovs(w, v, s);
         s = pass_or_cover(w, v, s);
         if (depth + 1 >= params.max_depth) continue;
         s = turned_to_viewer(w, v, s);

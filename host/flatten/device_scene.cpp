@@ -5,6 +5,7 @@
 #include "host/flatten/energy_table.h"
 #include "host/flatten/filter_table.h"
 #include "host/flatten/light_table.h"
+#include "host/flatten/lobe_lists.h"
 #include "host/flatten/material_records.h"
 #include "host/flatten/rounding_notes.h"
 #include "host/flatten/scene_arrays.h"
@@ -54,6 +55,7 @@ static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
         out.materials.push_back(material_record(material.bsdf));
     add_textures(scene, out);
     add_shapes(scene, out);
+    add_lobes(scene, out);
     add_light_table(scene, choice, out);
     out.features = scene_features(scene, out);
     add_energy_tables(scene, out);

@@ -32,6 +32,7 @@ struct DeviceScene {
     std::vector<TextureRecord> textures;
     LargeVector<int> texels;
     std::vector<float> byte_values; ///< BYTE_VALUES of them where there are texels of bytes
+    std::vector<LobeRecord> lobes;  ///< lists, one behind the other
     std::vector<LightRecord> lights;
     LightTree light_tree;             ///< empty where there is only one light
     std::vector<float> energy_tables; ///< one behind the other; materials know their first

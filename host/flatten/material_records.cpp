@@ -105,6 +105,12 @@ void texture_nothing(const Rows&, bool, const TextureRow&) {}
         PARAMETERS_##name(TEXTURE_PARAMETER)                                                       \
     }
 MATERIALS(TEXTURES_OF_BSDF)
+/// What a coat sends back to its base, see types.h.
+void derive(MaterialRecord& m, const PlasticBsdf& b) {
+    double inside = inner_reflectance(b.eta);
+    m.kg = static_cast<float>(b.nonlinear ? -inside : inside);
+    m.kb = 0.f;
+}
 
 #define SET_PARAMETER(Kind, name, missing, domain, stored) set_##stored(m, b.name);
 #define PACK_BSDF(name, Name, ...)                                                                 \
@@ -115,6 +121,17 @@ MATERIALS(TEXTURES_OF_BSDF)
 MATERIALS(PACK_BSDF)
 
 } // namespace
+
+double inner_reflectance(double eta) {
+    static const GaussLegendre<32> rule;
+    auto average = [](double index) {
+        const f64::Interface face{index, 1.0 / index, (index - 1.0) * (index + 1.0), 0.0};
+        return rule.integrate(
+            [&](double c) { return 2.0 * c * f64::fresnel_dielectric(c, face).reflectance; });
+    };
+    if (eta < 1.0) return average(1.0 / eta);
+    return 1.0 - (1.0 - average(eta)) / (eta * eta);
+}
 
 MaterialRecord material_record(const Bsdf& bsdf) {
     MaterialRecord m{};

@@ -20,11 +20,22 @@ inline constexpr MaterialTexturesRecord no_textures{MATERIAL_TEXTURES_FIELDS(NO_
 
 /// Rows of the textures that tell words of the record above.
 MaterialTexturesRecord material_textures(const Bsdf& bsdf, const TextureRow& row);
+/// Fresnel reflectance of an interface of relative index eta for light that comes from everywhere
+/// on its inner side. It is an integral over the side of the lesser index, where it is smooth; from
+/// one side to the other by reciprocity.
+double inner_reflectance(double eta);
 
 #define IS_ROUGHNESS(Kind, ...) || std::is_same_v<parameter::Kind, parameter::Roughness>
 #define ROUGH_BIT(name, ...) | ((false PARAMETERS_##name(IS_ROUGHNESS)) << material_##name)
 /// Bit k: material kind k has microfacets, by its parameters.
 inline constexpr int rough_materials = 0 MATERIALS(ROUGH_BIT);
+
+#define IS_INTERFACE(Kind, ...)                                                                    \
+    || std::is_same_v<parameter::Kind, parameter::Index> ||                                        \
+        std::is_same_v<parameter::Kind, parameter::SeparateIndex>
+#define INTERFACE_BIT(name, ...) | ((false PARAMETERS_##name(IS_INTERFACE)) << material_##name)
+/// Bit k: material kind k is an interface of two dielectrics, or has one.
+inline constexpr int interface_materials = 0 MATERIALS(INTERFACE_BIT);
 
 inline bool is_rough(const MaterialRecord& m) { return (rough_materials >> m.kind) & 1; }
 /// Whether its lobes lie along a surface's texture coordinates.

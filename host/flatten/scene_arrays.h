@@ -34,6 +34,7 @@ inline SceneArrays scene_arrays(const DeviceScene& scene) {
             with_a_row(scene.textures),
             scene.texels,
             scene.byte_values,
+            with_a_row(scene.lobes),
             scene.lights,
             scene.light_tree.nodes,
             scene.light_tree.leaves,

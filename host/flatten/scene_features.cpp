@@ -5,6 +5,7 @@
 #include "host/flatten/energy_table.h"
 #include "host/flatten/feature_counts.h"
 #include "host/flatten/filter_table.h"
+#include "host/flatten/lobe_lists.h"
 #include "host/flatten/material_records.h"
 #include "host/flatten/texture_features.h"
 #include "host/flatten/texture_records.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <string>
 
 namespace parhelion {
@@ -33,6 +35,7 @@ constexpr int no_limit = std::numeric_limits<int>::max(); // of a path's edges
 
 bool is_beckmann(const MaterialRecord& m) { return is_rough(m) && (m.distribution & 1); }
 bool is_matte(const MaterialRecord& m) { return (MATTE_MATERIALS >> m.kind) & 1; }
+bool is_opaque(const MaterialRecord& m) { return (OPAQUE_MATERIALS >> m.kind) & 1; }
 bool lets_through(const MaterialRecord& m) { return (PASSING_MATERIALS >> m.kind) & 1; }
 
 void decide_materials(const DeviceScene& records, FeatureDecisions& out) {
@@ -56,17 +59,25 @@ void decide_analytic_uvs(const Scene& scene, const DeviceScene& records,
                fmt::format("{}, {} reads them", analytic.text, read ? "something" : "nothing"));
 }
 
-bool is_opaque(const DeviceScene& records, int material) {
-    return material >= 0 && ((OPAQUE_MATERIALS >> records.materials[material].kind) & 1);
+bool is_black(const MaterialRecord& m) {
+    return m.kind == material_diffuse && m.r == 0.f && m.g == 0.f && m.b == 0.f;
 }
 
-/// An opaque material is asked for what it does below its surface, too.
-bool has_back_material(const ShapeRecord& s, const DeviceScene& records) {
-    bool differs = s.material_front != s.material_back;
-    // A front of null and a black back differ too, but a one-sided opaque front absorbs below by
-    // itself.
-    bool black_back = s.material_back < 0 && is_opaque(records, s.material_front);
-    return (differs && !black_back) || is_opaque(records, s.material_back);
+/// Whether light from below finds what a front alone does to it by itself: what is opaque absorbs.
+bool follows_from(const DeviceScene& records, int front, int back) {
+    std::map<int, float> transparent; // share of each at the front, less that at the back
+    bool follows = true;
+    for (const LobeRecord& lobe : lobes_of(records, front))
+        if (!is_opaque(records.materials[lobe.material])) transparent[lobe.material] += lobe.weight;
+    for (const LobeRecord& lobe : lobes_of(records, back)) {
+        const MaterialRecord& m = records.materials[lobe.material];
+        if (is_opaque(m))
+            follows &= is_black(m);
+        else
+            transparent[lobe.material] -= lobe.weight;
+    }
+    auto same = [](const auto& share) { return share.second == 0.f; };
+    return follows && std::all_of(transparent.begin(), transparent.end(), same);
 }
 
 /// Shapes that have primitives.
@@ -85,9 +96,13 @@ void decide_surfaces(const Scene& scene, const DeviceScene& records, FeatureDeci
     decide_by_count(out, feature_vertex_normals, shapes, "shapes", has(PRIMITIVE_NORMALS));
     decide_by_count(out, feature_vertex_uvs, shapes, "shapes, where they are read",
                     has(PRIMITIVE_UVS));
-    decide_by_count(out, feature_back_materials, shapes, "shapes",
-                    [&](const ShapeRecord& s) { return has_back_material(s, records); });
     decide_analytic_uvs(scene, records, shapes, out);
+    decide_by_count(out, feature_back_materials, shapes, "shapes", [&](const ShapeRecord& s) {
+        return !follows_from(records, s.material_front, s.material_back);
+    });
+    decide_by_count(out, feature_blends, shapes, "shapes", [](const ShapeRecord& s) {
+        return IS_BLEND(s.material_front) || IS_BLEND(s.material_back);
+    });
     std::size_t primitives = records.geometry.primitives.size();
     out.decide(feature_ray_streams, traced_in_streams(primitives),
                fmt::format("{} primitives; packets up to {}", primitives, primitives_for_packets));

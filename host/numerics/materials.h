@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/flatten/kind_names.h"
+#include "host/flatten/material_records.h"
 
 #include <fmt/format.h>
 
@@ -37,12 +38,13 @@ typename P::Material make_material(const MaterialCase& c) {
     m.tb = Real(c.transmittance[2]);
     m.er = Real(c.eta[0]), m.eg = Real(c.eta[1]), m.eb = Real(c.eta[2]);
     m.kr = Real(c.k[0]), m.kg = Real(c.k[1]), m.kb = Real(c.k[2]);
-    if (c.transparent) {
+    if ((interface_materials >> c.kind) & 1) {
         auto outside = interface_of<P>(c.index), inside = interface_of<P>(1 / c.index);
         m.er = outside.eta, m.eg = inside.eta;
         m.eb = outside.m_high, m.kr = outside.m_low;
         m.kg = inside.m_high, m.kb = inside.m_low;
     }
+    if (c.kind == material_plastic) m.kg = Real(inner_reflectance(c.index)), m.kb = Real(0);
     m.alpha_u = Real(c.alpha_u), m.alpha_v = Real(c.alpha_v);
     m.distribution = c.distribution;
     return m;
@@ -117,7 +119,7 @@ inline std::vector<f32::vec3> viewer_directions(const MaterialCase& c) {
 template<class P>
 bool is_delta(const typename P::Material& m, typename P::Vec3 wo) {
     Random random(99);
-    for (int n = 0; n < 64; n++) {
+    for (int n = 0; n < 4096; n++) {
         auto s = bsdf_sample(m, wo, random.square<P>(), typename P::Real(random.unit()));
         if (std::isfinite(s.pdf) && s.pdf > 0) return false;
     }

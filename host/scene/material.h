@@ -42,4 +42,16 @@ struct Material {
     Bsdf bsdf;
 };
 
+// What a side of a surface is made of: the number of a Material; or blend_code of that of a Blend;
+// or no_material, which absorbs.
+inline constexpr int no_material = -1;
+constexpr int blend_code(int number) { return BLEND_CODE(number); }
+
+/// Two in one, weighted: `second` by `weight` in (0, 1), `first` by the rest. Each is a material or
+/// again a blend.
+struct Blend {
+    double weight = 0.5;
+    int first = 0, second = 0;
+};
+
 } // namespace parhelion

@@ -53,5 +53,6 @@ struct Roughness {
 } // namespace parameter
 
 inline constexpr double glass_in_air = 1.5046 / 1.000277; ///< relative index of BK7
+inline constexpr double plastic_in_air = 1.49 / 1.000277; ///< of polypropylene
 
 } // namespace parhelion

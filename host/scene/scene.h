@@ -19,6 +19,7 @@ struct Scene {
     std::string file;
     std::vector<std::string> files; ///< that it was read from beside that one
     std::vector<Material> materials;
+    std::vector<Blend> blends;
     std::vector<Shape> shapes;
     std::vector<Emitter> emitters; ///< all but area emitters, which stand with their shapes
     Camera camera;
@@ -28,5 +29,12 @@ struct Scene {
     std::vector<std::string>
         notes; ///< what was mapped or defaulted and the user should be told, one line each
 };
+
+/// Its number. One without an id gets one by its place.
+int add_material(Scene& scene, Material material);
+
+/// What a side is made of that is `second` by `weight` in [0, 1], `first` by the rest, either of
+/// which may be no_material: adds a blend of both where each has a share and they differ.
+int add_blend(Scene& scene, Blend blend);
 
 } // namespace parhelion

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/error.h"
-#include "host/scene/parameter.h"
+#include "host/scene/material.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -54,19 +54,15 @@ struct Disk {
 
 using Geometry = std::variant<Mesh, Sphere, Disk>;
 
-inline constexpr int no_material = -1;
-
 struct Shape {
     std::string id;
     std::string plugin; ///< "obj", "sphere", ...
     SourceLocation location;
     Geometry geometry;
-    int material_front =
-        no_material; ///< index into Scene::materials; the side the normal points to
-    /// The other side. `twosided` gives it a material; otherwise equal to material_front for BSDFs
-    /// that look at both sides themselves (dielectrics, null) and `no_material` (black) for the
-    /// rest.
-    int material_back = no_material;
+    /// What its sides are made of (material.h); the front is that which the normal points to.
+    /// `twosided` gives the back a material; otherwise it is that of the front for BSDFs that look
+    /// at both sides themselves (dielectrics, null) and `no_material` for the rest.
+    int material_front = no_material, material_back = no_material;
     std::optional<Rgb> radiance; ///< area emitter on the front side, W/(m^2 sr)
 };
 

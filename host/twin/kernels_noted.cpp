@@ -23,6 +23,7 @@ struct Kernels : WorkItem {
         notes.surface = {
             triple(s.p), triple(s.ng), triple(s.ns), {triple(f.s), triple(f.t), triple(f.n)}};
     }
+    void note_material(int row) { notes.material = row; }
     void note_emission(const EmitterHit& e) { notes.emission = {triple(e.radiance), e.pdf}; }
     void note_sky(vec3 radiance) { notes.emission = {triple(radiance), 0.f}; }
     void note_sky_pdf(Real pdf) { notes.emission->pdf = pdf; }
@@ -47,6 +48,7 @@ struct Kernels : WorkItem {
         notes.draws.push_back({draw_names[draw], {r.x, r.y, r.z, r.w}});
     }
     void note_emitter_draw(const Random4& r) { note_draw(draw_emitter, r); }
+    void note_lobe_draw(const Random4& r) { note_draw(draw_lobe, r); }
     void note_bsdf_draw(const Random4& r) { note_draw(draw_bsdf, r); }
 #undef NOTE
 #undef PARHELION_REAL

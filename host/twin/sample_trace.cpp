@@ -79,13 +79,11 @@ void read_hit(const OnePath& path, const DeviceScene& scene, TraceVertex& v) {
     v.primitive = scene.geometry.index_in_shape(number);
 }
 
-void read_material(const DeviceScene& scene, TraceVertex& v) {
+void read_material(TraceVertex& v) {
     const auto& frame = v.notes.surface->frame;
     for (int axis = 0; axis < 3; axis++)
         v.wo[axis] = -dot(v.direction, frame[axis]);
-    const ShapeRecord& shape = scene.geometry.shapes[static_cast<std::size_t>(v.shape)];
-    bool back = v.wo[2] < 0.f && (scene.features.has(feature_back_materials));
-    v.material = back ? shape.material_back : shape.material_front;
+    v.material = *v.notes.material;
 }
 
 /// What next event estimation brings where it has cast no ray: as the kernel computes it.
@@ -180,7 +178,7 @@ void TracedWave::shade(TraceVertex& v) {
     v.notes = shade_noted(launch_, v.bounce);
     v.emission = minus(path_.radiance(), before);
     if (v.hit) {
-        read_material(scene_, v);
+        read_material(v);
         v.shadow_ray = path_.has_shadow_ray();
         v.light = v.shadow_ray ? path_.shadow3(shadow_contribution) : unsent_light(v);
         v.goes_on = path_.lives();

@@ -49,6 +49,7 @@ struct ShadeNotes {
     };
 
     std::optional<Surface> surface;
+    std::optional<int> material; ///< of the side that is looked at; -1: it absorbs
     std::optional<Emission> emission;
     std::optional<float> emission_weight;
     std::optional<Triple> energy_gain; ///< scales all that the surface sends on

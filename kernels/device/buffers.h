@@ -15,7 +15,7 @@
     X(IndexedPrimitiveRecord, primitives) X(float, points) X(ShapeRecord, shapes)                  \
     X(MaterialRecord, materials) X(MaterialTexturesRecord, material_textures)                      \
     X(TextureRecord, textures) X(int, texels) /* of images, one behind the other */                \
-    X(float, byte_values) X(LightRecord, lights)                                                   \
+    X(float, byte_values) X(LobeRecord, lobes) X(LightRecord, lights)                              \
     X(LightNodeRecord, light_nodes) X(int, light_leaves) /* the leaf of each light */              \
     X(float, energy_tables)                                                                        \
     X(FilterBin, filter_table) X(float, filter_values) /* at n / FILTER_INTERVALS pixels */

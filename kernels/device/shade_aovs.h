@@ -3,7 +3,7 @@
 #define PARHELION_SHADE_AOVS_H
 
 #include "device/camera_lanes.h"
-#include "device/shade_material.h"
+#include "device/shade_lobes.h"
 
 /// Into channels of an AOV, from `channel` of its own on; lanes without a hit get nothing.
 FN void write_aov1(ShadeWork w, PathVertex v, int kind, int channel, Real value) {
@@ -18,11 +18,13 @@ FN void write_aov3(ShadeWork w, PathVertex v, int kind, vec3 value) {
                     maskBits(v.hit));
 }
 
-FN void write_aovs(ShadeWork w, PathVertex v, Material m) {
+FN void write_aovs(ShadeWork w, PathVertex v, Shading shading) {
+    vec3 albedo = material_reflectance(shading.material);
+    if (HAS(blends)) albedo = all_lobes_reflectance(w, shading);
     SurfaceInteraction s = v.surface;
-    Mask bad = nought3(material_reflectance(m)) + nought3(s.ng) != (s.uv.x + s.uv.y) * R(0.);
+    Mask bad = nought3(albedo) + nought3(s.ng) != (s.uv.x + s.uv.y) * R(0.);
     mark_bad(w.results, v.path.slot, v.hit & bad, fault_aov, w.depth);
-    write_aov3(w, v, aov_albedo, material_reflectance(m));
+    write_aov3(w, v, aov_albedo, albedo);
     write_aov3(w, v, aov_sh_normal, s.ns);
     write_aov3(w, v, aov_geo_normal, s.ng);
     write_aov3(w, v, aov_position, s.p);

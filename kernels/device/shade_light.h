@@ -3,7 +3,7 @@
 #define PARHELION_SHADE_LIGHT_H
 
 #include "device/light_table.h"
-#include "device/shade_material.h"
+#include "device/shade_lobes.h"
 
 typedef struct {
     Mask lanes; // that get light from their sample
@@ -38,13 +38,14 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
     vec3 wi = to_local(s.frame, d.sample.wi);
     wi.z = wi.z * s.side;
     BsdfEval f = bsdf_eval(s.material, s.wo, wi);
+    if (HAS(blends)) f = eval_all_lobes(w, s, f, d.sample.wi, s.lanes);
     NOTE(towards_light, f);
     Real weight = R(1.);
     if (HAS(emission) && HAS(scattering)) {
         weight = light_weight(d.sample, pick, reached, f.pdf);
         NOTE(light_weight, weight);
     }
-    if (HAS(consistent_normals)) {
+    if (HAS(consistent_normals) && !HAS(blends)) {
         Real share = counted_share(s.sides, s.material, d.sample.wi);
         NOTE(light_share, share);
         weight = weight * share;

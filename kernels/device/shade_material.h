@@ -4,6 +4,7 @@
 
 #include "device/coverage.h"
 #include "device/energy_table.h"
+#include "device/lobes.h"
 #include "device/notes.h"
 #include "device/shade_work.h"
 #include "device/texture.h"
@@ -11,7 +12,9 @@
 typedef struct {
     Mask lanes;        // on a side that has a material
     Mask may_pass;     // of those, where a ray may go straight through
-    Material material; // of lanes without: the front's, for AOVs
+    Int code;          // what they are made of; of lanes without: the front, for AOVs
+    Material material; // that, or the lobe of it that a direction is drawn from
+    ChosenLobe lobe;
     ShadingSide sides;
     ShadingFrame frame;
     vec3 wo;   // in the frame
@@ -20,6 +23,7 @@ typedef struct {
     vec3 throughput, clearance;
     Int excluded;
     SampleNumber number;
+    TexturePlace place; // only for textures
 } Shading;
 
 /// Where textures are looked up.
@@ -33,9 +37,25 @@ FN TexturePlace texture_place(PathVertex v) {
     return place;
 }
 
+/// The material of row `row`, as textures tell it at the lanes that are wanted.
+FN Material material_at(SceneTables scene, Shading s, Int row, Mask wanted) {
+    Material m = load_Material(scene.materials, row);
+    if (HAS(textures)) m = resolve_textures(scene, row, s.place, wanted, m);
+    return m;
+}
+
+/// What the side that is looked at is made of (materials.h).
+FN Int side_code(ShadeWork w, PathVertex v, Mask below) {
+    Int code = v.primitive.stored.material;
+    if (HAS(back_materials)) code = sel(below, shape_of(w.scene, v.primitive).material_back, code);
+    return code;
+}
+
 /// A side without material absorbs; AOVs still show the front's.
 FN Shading shading_at(ShadeWork w, PathVertex v) {
     Shading s;
+    s.number = sample_number(asUint(v.path.pixel), asUint(v.path.sample),
+                             (Uint)(uint)w.params->seed, w.params->replicate_bits);
     SurfaceInteraction shaded = v.surface;
     s.sides.n = shaded.ns;
     s.sides.g = shaded.ng;
@@ -46,15 +66,19 @@ FN Shading shading_at(ShadeWork w, PathVertex v) {
     s.frame = surface_frame(shaded);
     NOTE(surface, shaded);
     s.wo = to_local(s.frame, neg3(v.path.direction));
-    Int front = v.primitive.stored.material, row = front;
-    if (HAS(back_materials))
-        row = sel(s.wo.z < R(0.), shape_of(w.scene, v.primitive).material_back, row);
-    s.lanes = v.hit & (row >= 0);
-    row = sel(row >= 0, row, front);
-    row = sel(row >= 0, row, (Int)0);
-    s.material = load_Material(w.scene.materials, row);
-    if (HAS(textures))
-        s.material = resolve_textures(w.scene, row, texture_place(v), v.hit, s.material);
+    Int front = v.primitive.stored.material, code = side_code(w, v, s.wo.z < R(0.));
+    s.lanes = v.hit & (code != -1);
+    s.code = sel(code != -1, code, front);
+    Int row = s.code;
+    if (HAS(blends)) {
+        Random4 r = sampler_draw(s.number, bounce_set(w.depth, draw_lobe));
+        NOTE(lobe_draw, r);
+        s.lobe = chosen_lobe(w.scene, s.code, uniform01(r.x));
+        row = s.lobe.row;
+    }
+    NOTE(material, sel(s.lanes, row, (Int)(-1)));
+    if (HAS(textures)) s.place = texture_place(v);
+    s.material = material_at(w.scene, s, sel(row >= 0, row, (Int)0), v.hit);
     return s;
 }
 
@@ -68,16 +92,19 @@ FN Shading pass_or_cover(ShadeWork w, PathVertex v, Shading s) {
     return s;
 }
 
+/// -1 where a surface of material m is turned over to be seen from below: from wo.z < 0.
+FN Real side_to_viewer(Material m, Real z) {
+    if (!HAS(back_materials)) return R(1.);
+    Mask opaque = ((((Int)1) << m.kind) & OPAQUE_MATERIALS) != 0;
+    return sel((z < R(0.)) & opaque, R(-1.), R(1.));
+}
+
 /// Ready for light and for scattering.
 FN Shading turned_to_viewer(ShadeWork w, PathVertex v, Shading s) {
-    s.side = R(1.);
-    if (HAS(back_materials)) {
-        Mask opaque = ((((Int)1) << s.material.kind) & OPAQUE_MATERIALS) != 0;
-        s.side = sel((s.wo.z < R(0.)) & opaque, R(-1.), R(1.));
-        s.wo.z = s.wo.z * s.side;
-    }
+    s.side = side_to_viewer(s.material, s.wo.z);
+    if (HAS(back_materials)) s.wo.z = s.wo.z * s.side;
     s.throughput = v.path.throughput;
-    if (HAS(energy_compensation)) {
+    if (HAS(energy_compensation) && !HAS(blends)) { // of blends: shade_lobes.h
         vec3 gain = compensate_energy(w.scene.energy_tables, s.material, s.wo, s.lanes);
         NOTE(energy_gain, gain);
         s.throughput = mul3(s.throughput, gain);
@@ -85,8 +112,6 @@ FN Shading turned_to_viewer(ShadeWork w, PathVertex v, Shading s) {
     s.clearance = surface_clearance(v.surface.error, v.surface.ng);
     Mask round = primitive_kind(v.primitive.whole) == geometry_sphere;
     s.excluded = sel(round, (Int)(-1), v.path.primitive);
-    s.number = sample_number(asUint(v.path.pixel), asUint(v.path.sample),
-                             (Uint)(uint)w.params->seed, w.params->replicate_bits);
     return s;
 }
 

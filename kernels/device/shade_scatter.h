@@ -2,7 +2,7 @@
 #ifndef PARHELION_SHADE_SCATTER_H
 #define PARHELION_SHADE_SCATTER_H
 
-#include "device/shade_material.h"
+#include "device/shade_lobes.h"
 
 typedef struct {
     Mask lanes; // that go on
@@ -31,13 +31,14 @@ FN Scattered scattered(ShadeWork w, PathVertex v, Shading s) {
     Random4 r = sampler_draw(s.number, bounce_set(w.depth, draw_bsdf));
     NOTE(bsdf_draw, r);
     BsdfSample b = bsdf_sample(s.material, s.wo, uniform2(r.x, r.y), uniform01(r.z));
+    if (HAS(blends)) b = sample_of_all_lobes(w, s, b, to_world_from(s.frame, b.wi, s.side));
     NOTE(scattered, b);
     Scattered out;
     out.wi = b.wi;
     out.pdf = b.pdf;
     out.eta_scale = v.path.eta_scale * b.eta;
     out.throughput = mul3(s.throughput, b.weight);
-    if (HAS(consistent_normals)) {
+    if (HAS(consistent_normals) && !HAS(blends)) {
         vec3 direction = to_world_from(s.frame, b.wi, s.side);
         Real share = counted_share(s.sides, s.material, direction);
         NOTE(scattered_share, share);

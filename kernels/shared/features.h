@@ -39,6 +39,7 @@
     X(textured_reflectance) X(textured_transmittance) X(textured_index) X(textured_roughness)      \
     X(texels_byte) X(texels_half) X(texels_single) /* components of their texels */                 \
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
+    X(blends)             /* some surface is several materials at once */                            \
     X(ggx) X(beckmann) X(anisotropy)                                                               \
     X(energy_compensation) /* some rough lobe makes up for what it scatters more than once */      \
     X(faure)              /* samples of a pixel in a pattern; without: independent */               \

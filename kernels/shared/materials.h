@@ -21,7 +21,8 @@
     X(roughconductor, RoughConductor, opaque)                                                      \
     X(roughdielectric, RoughDielectric, transparent)                                               \
     X(null, Null, passing)                                                                         \
-    X(roughdiffuse, RoughDiffuse, matte)
+    X(roughdiffuse, RoughDiffuse, matte)                                                           \
+    X(plastic, Plastic, opaque)
 
 // Parameters: what it is (host/scene/parameter.h), name, value of one that is missing, where its numbers may lie
 // (a domain of host/scene/mitsuba/number_parameters.cpp, or one in brackets), what it becomes in a MaterialRecord: one of
@@ -58,6 +59,13 @@
 #define PARAMETERS_roughdiffuse(X)                                                                 \
     X(Color, reflectance, 0.5, share, reflectance)                                                 \
     X(Number, alpha, 0.2, (between(0, 10)), alpha_u)
+
+// `nonlinear`: what the coat sends back to the base is tinted each time that it is reflected.
+#define PARAMETERS_plastic(X)                                                                      \
+    X(Index, eta, plastic_in_air, refractive_index, interface)                                     \
+    X(Color, diffuse_reflectance, 0.5, share, reflectance)                                         \
+    X(Color, specular_reflectance, 1.0, share, transmittance)                                      \
+    X(Flag, nonlinear, false, , nothing)
 // clang-format on
 
 #define KIND_MATERIAL(name, ...) material_##name,
@@ -74,5 +82,11 @@ enum MaterialKind { MATERIALS(KIND_MATERIAL) material_kind_count };
 #define OPAQUE_MATERIALS (0 MATERIALS(OPAQUE_BIT))
 #define MATTE_MATERIALS (0 MATERIALS(MATTE_BIT))
 #define PASSING_MATERIALS (0 MATERIALS(PASSING_BIT))
+
+// What a side of a surface is made of is a number: of a material; or the code of a blend, on the device of its first lobe; or -1,
+// which absorbs.
+#define BLEND_CODE(number) (-2 - (number))
+#define BLEND_NUMBER(code) (-2 - (code))
+#define IS_BLEND(code) ((code) < -1)
 
 #endif

@@ -39,6 +39,7 @@ FN vec3 sel3(Mask m, vec3 a, vec3 b) {
     return v3(sel(m, a.x, b.x), sel(m, a.y, b.y), sel(m, a.z, b.z));
 }
 FN Real dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+FN Real mean_component(vec3 a) { return (a.x + a.y + a.z) * R(.333333333333333333); }
 FN Real max_component(vec3 a) { return maxR(a.x, maxR(a.y, a.z)); }
 FN Real length3(vec3 a) { return sqrtR(dot3(a, a)); }
 FN vec3 normalize3(vec3 a) { return scale3(a, R(1.) / length3(a)); }

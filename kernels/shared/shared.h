@@ -34,6 +34,7 @@
 #include "shared/bsdf_dielectric.h"
 #include "shared/bsdf_diffuse.h"
 #include "shared/bsdf_null.h"
+#include "shared/bsdf_plastic.h"
 #include "shared/bsdf_roughconductor.h"
 #include "shared/bsdf_roughdielectric.h"
 #include "shared/bsdf_roughdiffuse.h"

@@ -65,13 +65,15 @@
 // What all primitives of a shape have in common. There is room, for a transform's row say.
 #define SHAPE_FIELDS(X)                                                                            \
     X(int, flags)                                /* geometry kind | PRIMITIVE_* */                  \
-    X(int, material_front) X(int, material_back) /* -1: absorbs */                                 \
+    X(int, material_front) X(int, material_back) /* materials.h */                                \
     X(int, first_primitive)                                                                        \
     X(int, unused0) X(int, unused1) X(int, unused2) X(int, unused3)
 
 // -------------------------------------------------------------------------------------- materials and lights
 // Dielectrics keep their index in (er, eg, eb, kr, kg, kb): eta, 1/eta, and the high and low parts of eta^2 - 1 seen
 // from the outside and from the inside (the low parts decide on which side of the critical angle a direction lies).
+// Plastics keep just the outside and, in kg, the average reflectance of their coat from inside, less than 0 if it is nonlinear; and the
+// tint of what their coat mirrors in place of a transmittance.
 // Rough conductors keep their reflectance, averaged over the cosine, in place of a transmittance.
 #define MATERIAL_FIELDS(X)                                                                         \
     X(int, kind)                                                                                   \
@@ -110,6 +112,10 @@
 
 // What bytes of texels stand for: 256 of sRGB, 256 evenly.
 #define BYTE_VALUES 512
+// A surface that is several materials at once has a list of lobes, one behind the other: the share of each, of all before it, and how
+// many are behind it. Shares add up to 1; each has its own material.
+#define LOBE_FIELDS(X)                                                                             \
+    X(int, material) X(float, weight) X(float, below) X(int, behind)
 
 // A table of the share of light that single scattering sends on: a row of cosines for each azimuth.
 #define ENERGY_COSINES 129
@@ -142,7 +148,7 @@
 #define RECORDS(X)                                                                                 \
     X(IndexedPrimitive, INDEXED_PRIMITIVE_FIELDS, 7) X(Shape, SHAPE_FIELDS, 8)                     \
     X(Material, MATERIAL_FIELDS, 16) X(MaterialTextures, MATERIAL_TEXTURES_FIELDS, 8)              \
-    X(Texture, TEXTURE_FIELDS, 16)                                                                 \
+    X(Texture, TEXTURE_FIELDS, 16) X(Lobe, LOBE_FIELDS, 4)                                         \
     X(Light, LIGHT_FIELDS, 16) X(LightNode, LIGHT_NODE_FIELDS, 16)
 // And what is made of that.
 #define MADE_OF_RECORDS(X) X(Primitive, PRIMITIVE_FIELDS, 11) X(Vertex, VERTEX_FIELDS, 15)

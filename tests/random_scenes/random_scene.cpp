@@ -47,11 +47,12 @@ std::string glass(Draws& draws) {
            number("ext_ior", draws.chance(0.7) ? 1 : draws.index());
 }
 
-std::string bsdf(Draws& draws) {
+/// `nesting`: how many bsdfs may hold each other.
+std::string bsdf(Draws& draws, int nesting = 3) {
     auto plugin = [](const char* type, const std::string& inside) {
         return fmt::format("<bsdf type=\"{}\">{}</bsdf>", type, inside);
     };
-    switch (draws.below(9)) {
+    switch (draws.below(nesting > 0 ? 12 : 10)) {
     case 0:
     case 1:
         return plugin("diffuse", tint("reflectance", draws));
@@ -67,6 +68,15 @@ std::string bsdf(Draws& draws) {
         return plugin("roughdielectric", roughness(draws) + glass(draws));
     case 7:
         return plugin("twosided", plugin("diffuse", tint("reflectance", draws)));
+    case 8:
+        return plugin("plastic", glass(draws) + tint("diffuse_reflectance", draws) +
+                                     tint("specular_reflectance", draws));
+    case 10:
+        return plugin("mask", number("opacity", draws.share()) + bsdf(draws, nesting - 1));
+    case 11: {
+        std::string weight = number("weight", draws.share()), first = bsdf(draws, nesting - 1);
+        return plugin("blendbsdf", weight + first + bsdf(draws, nesting - 1));
+    }
     default:
         return plugin("null", "");
     }

@@ -42,11 +42,18 @@ inline std::string step_element(std::string_view element, std::string_view name,
     return fmt::format("<{} x='{}' {}/>", element, v, element == "rotate" ? "angle='30'" : "");
 }
 
+inline constexpr const char* white_bsdf = "<bsdf type='twosided'><bsdf type='diffuse'><float "
+                                          "name='reflectance' value='1'/></bsdf></bsdf>";
+
 /// What a plugin cannot do without, and what belongs to the number.
 inline std::string companions(std::string_view plugin, std::string_view name) {
     if (name == "alpha_u") return "<float name='alpha_v' value='0.1'/>";
     if (name == "alpha_v") return "<float name='alpha_u' value='0.1'/>";
     if (plugin == "mesh_attribute") return "<string name='name' value='vertex_color'/>";
+    if (plugin == "plastic" && name != "diffuse_reflectance")
+        return "<float name='diffuse_reflectance' value='1'/>";
+    if (plugin == "mask") return white_bsdf;
+    if (plugin == "blendbsdf") return fmt::format("{0}{0}", white_bsdf);
     if (plugin == "aov") return "<string name='aovs' value='d:depth'/>";
     if (plugin == "moment") return "<integrator type='direct'/>";
     if (plugin == "thinlens" && name != "aperture_radius")

@@ -118,9 +118,27 @@ inline void set_texels_single(Setup& s, bool on) {
 }
 inline void set_back_materials(Setup& s, bool on) {
     for (Shape& shape : s.scene.shapes) {
-        auto kind = static_cast<std::size_t>(shape.material_front) / 2;
-        bool opaque = shape.material_front == black_material || is_opaque(kind);
-        if (!on && opaque) shape.material_back = no_material;
+        int front = shape.material_front;
+        bool blend = IS_BLEND(front) && front == shape.material_back; // of opaque ones
+        auto kind = static_cast<std::size_t>(front) / 2;
+        bool opaque = front >= 0 && (front == black_material || is_opaque(kind));
+        if (!on && (blend || opaque)) shape.material_back = no_material;
+    }
+}
+/// On: opaque ones are blends with the first material, null ones masks of it.
+inline void set_blends(Setup& s, bool on) {
+    if (!on) return;
+    for (Shape& shape : s.scene.shapes) {
+        int front = shape.material_front, back = shape.material_back;
+        if (front < 0 || front == black_material) continue;
+        auto kind = static_cast<std::size_t>(front) / 2;
+        if (is_opaque(kind)) {
+            shape.material_front = add_blend(s.scene, {0.4, front, 0});
+            shape.material_back = back == no_material ? no_material : shape.material_front;
+        } else if (kind == material_null) {
+            shape.material_front = add_blend(s.scene, {0.4, front, 0});
+            shape.material_back = add_blend(s.scene, {0.4, back, no_material});
+        }
     }
 }
 inline void set_ggx(Setup& s, bool on) {

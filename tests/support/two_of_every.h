@@ -51,6 +51,9 @@ inline Bsdf example_null(int) { return NullBsdf{}; }
 inline Bsdf example_roughdiffuse(int which) {
     return RoughDiffuseBsdf{Rgb(0.5, 0.4, 0.6), which ? 1.0 : 0.4};
 }
+inline Bsdf example_plastic(int which) {
+    return PlasticBsdf{which ? 1.8 : 1.3, Rgb(0.3, 0.5, 0.7), Rgb(which ? 1.0 : 0.5), which != 0};
+}
 
 using Example = Bsdf (*)(int);
 #define EXAMPLE_MATERIAL(name, ...) example_##name,

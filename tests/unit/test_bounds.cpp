@@ -26,6 +26,7 @@ void empty_material_textures(DeviceScene& s) { s.material_textures.resize(1); }
 void empty_textures(DeviceScene& s) { s.textures.resize(1); }
 void empty_texels(DeviceScene& s) { s.texels.clear(); }
 void empty_byte_values(DeviceScene& s) { s.byte_values.clear(); }
+void empty_lobes(DeviceScene& s) { s.lobes.resize(1); }
 void empty_lights(DeviceScene& s) { s.lights.clear(); }
 void empty_light_nodes(DeviceScene& s) { s.light_tree.nodes.clear(); }
 void empty_light_leaves(DeviceScene& s) { s.light_tree.leaves.clear(); }
@@ -76,6 +77,8 @@ TEST_CASE("Bounds: every table of a scene is looked after", "[bounds]") {
         for (std::size_t i = 0; i < scene.materials.size(); i++)
             if (auto* matte = std::get_if<DiffuseBsdf>(&scene.materials[i].bsdf))
                 matte->reflectance = example_textures[i % example_textures.size()]();
+        if (std::string(table.name) == "lobes")
+            scene.shapes[0].material_front = add_blend(scene, {0.5, 0, 1});
         set_energy_compensation(scene, std::string(table.name) == "energy_tables");
         DeviceScene whole = make_device_scene(scene);
         run_every_stage(scene, whole, whole);

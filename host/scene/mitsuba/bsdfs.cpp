@@ -1,7 +1,8 @@
-// The bsdf plugins.
-#include "host/scene/mitsuba/plugin_table.h"
-#include "host/scene/mitsuba/plugins.h"
+// The bsdf plugins that are one material: their parameters.
+#include "host/scene/mitsuba/bsdfs.h"
+
 #include "host/scene/mitsuba/properties.h"
+#include "host/scene/text.h"
 
 #include <fmt/format.h>
 
@@ -75,9 +76,12 @@ bool read(parameter::Flag, Properties& p, std::string_view name, bool missing) {
     return p.boolean(name, missing);
 }
 
-double read(parameter::Index, Properties& p, std::string_view, double) {
-    const double inside = read_index(p, "int_ior", 1.5046);
-    return inside / read_index(p, "ext_ior", 1.000277);
+double read(parameter::Index, Properties& p, std::string_view, double missing) {
+    constexpr double air = 1.000277;
+    const bool given = p.has("int_ior") || p.has("ext_ior");
+    const double inside = read_index(p, "int_ior", missing * air);
+    const double outside = read_index(p, "ext_ior", air);
+    return given ? inside / outside : missing;
 }
 
 double read(parameter::SeparateIndex, Properties& p, std::string_view name, double missing) {
@@ -154,6 +158,8 @@ void note_together(Properties& p, const RoughConductorBsdf& b) { note_compensati
 
 void note_together(Properties& p, const RoughDielectricBsdf& b) { note_compensation(p, b, 0.3); }
 
+} // namespace
+
 #define READ_PARAMETER(Kind, name, ...) b.name = read(parameter::Kind{}, p, #name, b.name);
 #define BSDF_READER(name, Name, ...)                                                               \
     Bsdf read_##name(Properties& p) {                                                              \
@@ -163,52 +169,5 @@ void note_together(Properties& p, const RoughDielectricBsdf& b) { note_compensat
         return b;                                                                                  \
     }
 MATERIALS(BSDF_READER)
-
-SurfaceMaterials::Back back_of(const Bsdf& bsdf) {
-    const bool one_sided = (OPAQUE_MATERIALS >> bsdf.index()) & 1;
-    return one_sided ? SurfaceMaterials::Back::black : SurfaceMaterials::Back::same;
-}
-
-SurfaceMaterials read_two_sided(Properties& p, const Document& document, Notes& notes) {
-    const std::vector<const Child*> nested = p.children("bsdf");
-    p.finish();
-    if (nested.empty() || nested.size() > 2)
-        refuse(p.location(),
-               fmt::format("{} holds {} bsdfs (accepted: 1 or 2)", p.title(), nested.size()));
-    std::vector<Material> sides;
-    for (const Child* const child : nested) {
-        const Object& object = p.target(*child);
-        const auto refuse_nested = [&](const char* reason) {
-            refuse(child->location, fmt::format("{} cannot hold the bsdf plugin {}, {}", p.title(),
-                                                in_quotes(object.plugin), reason));
-        };
-        if (object.plugin == "twosided") refuse_nested("which has two sides already");
-        SurfaceMaterials side = read_bsdf(document, object, notes);
-        if (side.back_kind != SurfaceMaterials::Back::black)
-            refuse_nested("which light passes through");
-        if (side.front.id.empty()) side.front.id = p.object().id;
-        sides.push_back(std::move(side.front));
-    }
-    if (sides.size() == 1) return {sides[0], SurfaceMaterials::Back::same, {}};
-    return {sides[0], SurfaceMaterials::Back::other, sides[1]};
-}
-
-using BsdfReader = Bsdf (*)(Properties&);
-
-#define BSDF_PLUGIN(name, ...) {#name, read_##name},
-constexpr PluginTable<BsdfReader, material_kind_count + 1> bsdf_plugins = {
-    {MATERIALS(BSDF_PLUGIN){"twosided", nullptr}}};
-
-} // namespace
-
-SurfaceMaterials read_bsdf(const Document& document, const Object& object, Notes& notes) {
-    Properties p(document, object, notes);
-    const BsdfReader read = find_plugin(bsdf_plugins, object);
-    if (!read) return read_two_sided(p, document, notes);
-    SurfaceMaterials result{{object.id, object.location, read(p)}, {}, {}};
-    result.back_kind = back_of(result.front.bsdf);
-    p.finish();
-    return result;
-}
 
 } // namespace parhelion::mitsuba

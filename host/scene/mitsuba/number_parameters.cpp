@@ -101,6 +101,9 @@ std::vector<NumberParameter> material_parameters() {
 }
 
 const NumberParameter other_parameters[] = {
+    {"bsdf", "mask", "opacity", color, share},
+    {"bsdf", "blendbsdf", "weight", color, share},
+
     {"emitter", "area constant", "radiance", color, radiometric, power},
     {"emitter", "point spot", "intensity", color, radiometric, power},
     {"emitter", "directional", "irradiance", color, radiometric, power},

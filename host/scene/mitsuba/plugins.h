@@ -14,19 +14,14 @@ namespace parhelion::mitsuba {
 
 using Notes = std::vector<std::string>;
 
-/// A material for each side of a surface.
+/// What each side of a surface is made of (host/scene/material.h).
 struct SurfaceMaterials {
-    enum class Back {
-        black, ///< the back reflects nothing
-        same,  ///< the front's material looks at both sides
-        other, ///< `back`
-    };
-    Material front;
-    Back back_kind = Back::black;
-    Material back;
+    int front = no_material, back = no_material;
 };
 
-SurfaceMaterials read_bsdf(const Document& document, const Object& object, Notes& notes);
+/// Adds to the scene's materials and blends.
+SurfaceMaterials read_bsdf(const Document& document, const Object& object, Scene& scene,
+                           Notes& notes);
 
 /// One of the emitters that are no surfaces.
 Emitter read_emitter(const Document& document, const Object& object, Notes& notes);

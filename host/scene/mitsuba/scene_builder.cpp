@@ -26,53 +26,35 @@ public:
     Scene build(const std::string& file);
 
 private:
-    struct MaterialPair {
-        int front = no_material, back = no_material;
-    };
-
     void add(const Child& child);
     void check_definition(const Child& child, const Object& object);
     void add_shape(const Object& object);
     void add_emitter(const Object& object);
     void set_sensor(const Child& child);
     void set_integrator(const Child& child);
-    int add_material(Material material);
-    MaterialPair materials_of(const Object& object);
-    MaterialPair default_material(bool emits);
+    SurfaceMaterials materials_of(const Object& object);
+    SurfaceMaterials default_material(bool emits);
 
     Document document_;
     Scene scene_;
-    std::map<const Object*, MaterialPair> materials_; ///< by the bsdf that asked for them
-    std::map<bool, MaterialPair> default_materials_;
+    std::map<const Object*, SurfaceMaterials> materials_; ///< by the bsdf that asked for them
+    std::map<bool, SurfaceMaterials> default_materials_;
     std::optional<SourceLocation> sensor_, integrator_, background_;
 };
 
-int SceneBuilder::add_material(Material material) {
-    const int index = static_cast<int>(scene_.materials.size());
-    if (material.id.empty()) material.id = "bsdf " + std::to_string(index + 1);
-    scene_.materials.push_back(std::move(material));
-    return index;
-}
-
-SceneBuilder::MaterialPair SceneBuilder::materials_of(const Object& object) {
-    if (const auto known = materials_.find(&object); known != materials_.end())
-        return known->second;
-    SurfaceMaterials materials = read_bsdf(document_, object, scene_.notes);
-    MaterialPair pair;
-    pair.front = add_material(std::move(materials.front));
-    if (materials.back_kind == SurfaceMaterials::Back::same) pair.back = pair.front;
-    if (materials.back_kind == SurfaceMaterials::Back::other)
-        pair.back = add_material(std::move(materials.back));
-    return materials_[&object] = pair;
+SurfaceMaterials SceneBuilder::materials_of(const Object& object) {
+    const auto [entry, added] = materials_.try_emplace(&object);
+    if (added) entry->second = read_bsdf(document_, object, scene_, scene_.notes);
+    return entry->second;
 }
 
 /// What Mitsuba gives a shape without a bsdf: grey, or black where it emits.
-SceneBuilder::MaterialPair SceneBuilder::default_material(bool emits) {
+SurfaceMaterials SceneBuilder::default_material(bool emits) {
     const auto [entry, added] = default_materials_.try_emplace(emits);
     if (added)
-        entry->second.front = add_material({emits ? "default of emitters" : "default",
-                                            {scene_.file, 0},
-                                            DiffuseBsdf{Rgb(emits ? 0.0 : 0.5)}});
+        entry->second.front = add_material(scene_, {emits ? "default of emitters" : "default",
+                                                    {scene_.file, 0},
+                                                    DiffuseBsdf{Rgb(emits ? 0.0 : 0.5)}});
     return entry->second;
 }
 
@@ -81,10 +63,10 @@ void SceneBuilder::add_shape(const Object& object) {
     Shape shape{object.id, object.plugin, object.location, std::move(parts.geometry), {}, {}, {}};
     if (shape.id.empty()) shape.id = "shape " + std::to_string(scene_.shapes.size() + 1);
     if (parts.emitter) shape.radiance = read_area_emitter(document_, *parts.emitter, scene_.notes);
-    const MaterialPair pair =
+    const SurfaceMaterials materials =
         parts.bsdf ? materials_of(*parts.bsdf) : default_material(parts.emitter != nullptr);
-    shape.material_front = pair.front;
-    shape.material_back = pair.back;
+    shape.material_front = materials.front;
+    shape.material_back = materials.back;
     scene_.shapes.push_back(std::move(shape));
 }
 
@@ -140,9 +122,10 @@ void SceneBuilder::add(const Child& child) {
 /// What stands in the scene only to be referred to. It is read even if nothing does, so that its
 /// mistakes are found.
 void SceneBuilder::check_definition(const Child& child, const Object& object) {
-    if (object.tag == "bsdf")
-        static_cast<void>(read_bsdf(document_, object, scene_.notes));
-    else if (object.tag == "film")
+    if (object.tag == "bsdf") {
+        Scene unused;
+        read_bsdf(document_, object, unused, scene_.notes);
+    } else if (object.tag == "film")
         static_cast<void>(read_film(document_, object, scene_.notes));
     else if (object.tag == "rfilter")
         static_cast<void>(read_filter(document_, object, scene_.notes));
