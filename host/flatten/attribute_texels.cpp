@@ -11,9 +11,14 @@
 namespace parhelion {
 namespace {
 
-bool looks_up(const DeviceScene& records, int material, int row) {
-    if (material < 0) return false;
-    const MaterialTexturesRecord& t = records.material_textures[material];
+/// Whether a side of a shape does: a material, or one of a blend.
+bool looks_up(const Scene& scene, const DeviceScene& records, int code, int row) {
+    if (code == no_material) return false;
+    if (IS_BLEND(code)) {
+        const Blend& b = scene.blends[BLEND_NUMBER(code)];
+        return looks_up(scene, records, b.first, row) || looks_up(scene, records, b.second, row);
+    }
+    const MaterialTexturesRecord& t = records.material_textures[code];
 #define IS_ROW(type, name) || t.name == row
     return false MATERIAL_TEXTURES_FIELDS(IS_ROW);
 #undef IS_ROW
@@ -73,8 +78,8 @@ AttributeTexels attribute_texels(const Scene& scene, const DeviceScene& records,
     std::size_t words = attribute.of_faces() ? 3 : 9, primitives = 0;
     for (std::size_t i = 0; i < scene.shapes.size(); i++) {
         const Shape& shape = scene.shapes[i];
-        if (primitive_count(shape) > 0 && (looks_up(records, shape.material_front, row) ||
-                                           looks_up(records, shape.material_back, row))) {
+        if (primitive_count(shape) > 0 && (looks_up(scene, records, shape.material_front, row) ||
+                                           looks_up(scene, records, shape.material_back, row))) {
             const MeshAttribute& found = attribute_of(shape, attribute.name);
             texels.shapes[i] = static_cast<int>(first_word + texels.values.size()) -
                                static_cast<int>(words * primitives);

@@ -140,9 +140,9 @@ TEST_CASE("Blends: what has no share is not there", "[blends]") {
     CHECK(shown(mask(number("opacity", "1"), red)).index() == material_diffuse);
     CHECK(shown(mask(number("opacity", "0"), red)).index() == material_null);
     Bsdf first = shown(blend(number("weight", "0"), red + green));
-    CHECK(std::get<DiffuseBsdf>(first).reflectance.r == 0.8);
+    CHECK(std::get<DiffuseBsdf>(first).reflectance.constant.r == 0.8);
     Bsdf second = shown(blend(number("weight", "1"), red + green));
-    CHECK(std::get<DiffuseBsdf>(second).reflectance.g == 0.8);
+    CHECK(std::get<DiffuseBsdf>(second).reflectance.constant.g == 0.8);
 }
 
 TEST_CASE("Blends: a share given as a colour is the mean of its channels", "[blends]") {

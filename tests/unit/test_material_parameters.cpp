@@ -53,7 +53,7 @@ void expect_roughness(Words& w, const parameter::Roughness::Value& v) {
     w.alpha_u = v.alpha_u.constant, w.alpha_v = v.alpha_v.constant;
 }
 void expect_alpha(Words& w, double alpha) { w.alpha_u = alpha; }
-void expect_diffuse_reflectance(const Words&, const Rgb&) {}
+void expect_diffuse_reflectance(const Words&, const Textured<Rgb>&) {}
 void expect_nonlinear(const Words&, bool) {}
 void expect_energy_compensation(const Words&, bool) {}
 
