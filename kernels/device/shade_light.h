@@ -45,7 +45,7 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
         weight = light_weight(d.sample, pick, reached, f.pdf);
         NOTE(light_weight, weight);
     }
-    if (HAS(consistent_normals) && !HAS(blends)) {
+    if (!HAS(blends) && HAS(consistent_normals)) {
         Real share = counted_share(s.sides, s.material, d.sample.wi);
         NOTE(light_share, share);
         weight = weight * share;

@@ -104,7 +104,7 @@ FN Shading turned_to_viewer(ShadeWork w, PathVertex v, Shading s) {
     s.side = side_to_viewer(s.material, s.wo.z);
     if (HAS(back_materials)) s.wo.z = s.wo.z * s.side;
     s.throughput = v.path.throughput;
-    if (HAS(energy_compensation) && !HAS(blends)) { // of blends: shade_lobes.h
+    if (!HAS(blends) && HAS(energy_compensation)) { // of blends: shade_lobes.h
         vec3 gain = compensate_energy(w.scene.energy_tables, s.material, s.wo, s.lanes);
         NOTE(energy_gain, gain);
         s.throughput = mul3(s.throughput, gain);

@@ -38,7 +38,7 @@ FN Scattered scattered(ShadeWork w, PathVertex v, Shading s) {
     out.pdf = b.pdf;
     out.eta_scale = v.path.eta_scale * b.eta;
     out.throughput = mul3(s.throughput, b.weight);
-    if (HAS(consistent_normals) && !HAS(blends)) {
+    if (!HAS(blends) && HAS(consistent_normals)) {
         vec3 direction = to_world_from(s.frame, b.wi, s.side);
         Real share = counted_share(s.sides, s.material, direction);
         NOTE(scattered_share, share);
