@@ -83,8 +83,8 @@ enum MaterialKind { MATERIALS(KIND_MATERIAL) material_kind_count };
 #define MATTE_MATERIALS (0 MATERIALS(MATTE_BIT))
 #define PASSING_MATERIALS (0 MATERIALS(PASSING_BIT))
 
-// What a side of a surface is made of is a number: of a material; or the code of a blend, on the device of its first lobe; or -1,
-// which absorbs.
+// What a side of a surface is made of is a number: of a material; or the code of a blend, on the
+// device of its first lobe; or -1, which absorbs.
 #define BLEND_CODE(number) (-2 - (number))
 #define BLEND_NUMBER(code) (-2 - (code))
 #define IS_BLEND(code) ((code) < -1)
