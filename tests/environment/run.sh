@@ -128,14 +128,14 @@ bounded() {
     local file
     rm -rf bound && mkdir bound
     for file in 0123456789abcde{0,1,2,3}.program; do
-        head -c 400000 /dev/urandom >"bound/$file"
+        head -c 800000 /dev/urandom >"bound/$file"
         touch -d "2020-01-01 +${#file} days" "bound/$file"
     done
     touch -d 2019-01-01 bound/0123456789abcde3.program
-    renders "a bound of 1 MB" 0 - env PARHELION_CACHE_DIR="$work/bound" PARHELION_CACHE_SIZE=1
-    (($(du -sb --apparent-size bound | cut -f1) < 1100000)) || fail "a bound of 1 MB" "$(du -sb bound)"
-    [[ ! -e bound/0123456789abcde3.program ]] || fail "a bound of 1 MB" "the oldest file is still there"
-    renders "a bound of 1 MB, run again" 0 'kernels: .*, cached' env PARHELION_CACHE_DIR="$work/bound" PARHELION_CACHE_SIZE=1
+    renders "a bound of 2 MB" 0 - env PARHELION_CACHE_DIR="$work/bound" PARHELION_CACHE_SIZE=2
+    (($(du -sb --apparent-size bound | cut -f1) < 2200000)) || fail "a bound of 2 MB" "$(du -sb bound)"
+    [[ ! -e bound/0123456789abcde3.program ]] || fail "a bound of 2 MB" "the oldest file is still there"
+    renders "a bound of 2 MB, run again" 0 'kernels: .*, cached' env PARHELION_CACHE_DIR="$work/bound" PARHELION_CACHE_SIZE=2
 }
 
 # Several processes on one cold cache, and a run that was killed and left its temporary folder.
