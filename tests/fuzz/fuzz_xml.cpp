@@ -42,18 +42,29 @@ private:
     fs::path path_;
 };
 
-template<class Index>
-void check_material(Index material, std::size_t count) {
-    promise(material == no_material ||
-                (material >= 0 && static_cast<std::size_t>(material) < count),
-            "a shape uses a material that is not there");
+/// A part of a blend is one that stands before it.
+void check_side(const Scene& scene, int code, std::size_t blends) {
+    if (!IS_BLEND(code)) {
+        promise(code == no_material ||
+                    (code >= 0 && static_cast<std::size_t>(code) < scene.materials.size()),
+                "a shape uses a material that is not there");
+        return;
+    }
+    const auto number = static_cast<std::size_t>(BLEND_NUMBER(code));
+    promise(number < blends, "a side is made of a blend that is not there");
+    const Blend& blend = scene.blends[number];
+    promise(blend.weight > 0.0 && blend.weight < 1.0, "each of a blend has a share");
+    for (const int part : {blend.first, blend.second}) {
+        promise(part != no_material, "a blend has nothing that is no material");
+        check_side(scene, part, number);
+    }
 }
 
 void check_scene(const Scene& scene) {
     for (const Shape& shape : scene.shapes) {
         if (const Mesh* const mesh = std::get_if<Mesh>(&shape.geometry)) check_mesh(*mesh);
-        check_material(shape.material_front, scene.materials.size());
-        check_material(shape.material_back, scene.materials.size());
+        for (const int side : {shape.material_front, shape.material_back})
+            check_side(scene, side, scene.blends.size());
     }
     promise(scene.film.width > 0 && scene.film.height > 0, "the film has pixels");
     promise(scene.sampler.samples_per_pixel > 0, "there are samples");
