@@ -3,7 +3,10 @@
 
 #include "host/scene/material.h"
 
+#include <half.h>
+
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -23,7 +26,7 @@ inline TexelSource texels_of(int width, int height, int channels, TexelComponent
     return {name, layout, [=](std::span<std::byte> to) {
                 for (std::size_t k = 0; k < values.size(); k++) {
                     auto byte = static_cast<std::uint8_t>(values[k]);
-                    auto half = static_cast<_Float16>(values[k]);
+                    std::uint16_t half = Imath::half(values[k]).bits();
                     const void* from = component == TexelComponent::byte ? static_cast<void*>(&byte)
                                        : component == TexelComponent::half
                                            ? static_cast<void*>(&half)

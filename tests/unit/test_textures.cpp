@@ -187,7 +187,7 @@ TEST_CASE("Textures: components of every kind and number are decoded", "[texture
     for (int k = 0; k < 2; k++)
         for (int c = 0; c < 3; c++)
             CHECK(at(image(TexelComponent::half, 3, halves), k ? 0.75 : 0.25)[c] ==
-                  static_cast<float>(static_cast<_Float16>(halves[3 * k + c])));
+                  static_cast<float>(Imath::half(halves[3 * k + c])));
     check_color(at(image(TexelComponent::half, 1, {0.5f, 0.75f}), 0.25), Rgb(0.5), 0);
     check_color(at(image(TexelComponent::single, 1, {0.3f, 0.75f}), 0.25), Rgb(0.3f), 0);
     // Floats that stand for 16 bits of sRGB.
