@@ -118,7 +118,7 @@ FN SurfaceInteraction surface_cylinder(Primitive p, vec3 on_ray) {
     s.tangent = splat3(R(0.));
     s.uv = v2(R(0.), R(0.));
     Real sign = copysignR(R(1.), p.extra);
-    if (HAS(aovs)) {
+    if (HAS(analytic_uvs)) {
         Real y = dot3(outward, cross3(unit, side)) * sign;
         Real phi = atan2R(y, dot3(outward, side)) * R(INV_TWO_PI);
         s.uv = v2(sel(phi < R(0.), phi + 1.f, phi), along);

@@ -10,6 +10,7 @@
 #include "tests/support/example_textures.h"
 #include "tests/support/host_render.h"
 #include "tests/support/parameter_values.h"
+#include "tests/support/two_of_every.h"
 
 #include <catch2/catch.hpp>
 
@@ -333,4 +334,34 @@ TEST_CASE("Textures: values that a parameter cannot take are refused", "[texture
     CHECK_THAT(refusal({-1, 1}, between(0, 1)), Contains("values from -1 to 1"));
     CHECK_THAT(refusal({0, NAN}, any_number()), Contains("nan"));
     CHECK_THAT(refusal({INFINITY, 0}, any_number()), Contains("inf"));
+}
+
+TEST_CASE("Textures: a shape of any kind shows them, whether layers are asked for or not",
+          "[textures]") {
+    // In a sky of 1 a matte surface is as bright as it reflects, but for what meets itself: a
+    // cylinder's inside.
+    for (std::size_t k = 0; k < example_shapes.size(); k++) {
+        CAPTURE(k);
+        Scene scene = look_at(DiffuseBsdf{}, 0, 0);
+        glm::dmat3 to_uv(4, 0, 0, 0, 4, 0, 0, 0, 1);
+        std::get<DiffuseBsdf>(scene.materials[0].bsdf).reflectance =
+            textured(Texture{"", to_uv, CheckerboardTexture{Rgb(0.9), Rgb(0.1)}});
+        scene.shapes = {shape_of(example_shapes[k]({0, 0, 0}, 1), 0, 0)};
+        scene.emitters = {ConstantEmitter{Rgb(1)}};
+        scene.camera.fov_degrees = 5;
+        scene.film.width = scene.film.crop_width = scene.film.height = scene.film.crop_height = 16;
+        Image albedo = host_render(scene, Precision::double_precision).image;
+        scene.integrator = {};
+        scene.integrator.max_depth = 2, scene.integrator.emitter_samples = false;
+        scene.integrator.hide_emitters = true;
+        Image seen = host_render(scene, Precision::double_precision).image;
+        const auto &a = find_channel(albedo, "a.R")->values, &r = find_channel(seen, "R")->values;
+        int light = 0, dark = 0;
+        for (std::size_t i = 0; i < a.size(); i++) {
+            if (r[i] > 0) CHECK(r[i] == Approx(a[i]).margin(1e-5));
+            light += r[i] > 0.8f, dark += r[i] > 0.05f && r[i] < 0.2f;
+        }
+        CHECK(light > 5);
+        CHECK(dark > 5);
+    }
 }
