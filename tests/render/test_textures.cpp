@@ -56,9 +56,10 @@ void check_color(const Rgb& found, const Rgb& expected, double error) {
 
 /// Of `columns` x `rows` texels, all different, between 0 and 1.
 std::vector<float> many_values(int columns, int rows) {
-    std::vector<float> values;
-    for (int k = 0; k < columns * rows * 3; k++)
-        values.push_back(std::fmod(0.371f * static_cast<float>(k) + 0.1f, 1.f));
+    std::vector<float> values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) *
+                              3);
+    for (std::size_t k = 0; k < values.size(); k++)
+        values[k] = std::fmod(0.371f * static_cast<float>(k) + 0.1f, 1.f);
     return values;
 }
 

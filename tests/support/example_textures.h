@@ -55,6 +55,7 @@ inline Textured<double> as_number(const Textured<Rgb>& color) {
 /// Two rows of three texels, no two values alike, all between 0.1 and 0.9.
 inline TexelSource example_texels(TexelComponent component) {
     std::vector<float> values;
+    values.reserve(18);
     for (int k = 0; k < 18; k++)
         values.push_back(component == TexelComponent::byte
                              ? static_cast<float>(30 + 11 * k)
