@@ -143,9 +143,9 @@ const std::vector<glm::dvec2> places{{0.01, 0.02},   {0.49, 0.51},  {0.91, 0.97}
 } // namespace
 
 TEST_CASE("Textures: filters and wrap modes give what their documentation says", "[textures]") {
-    std::vector<float> values;
-    for (int k = 0; k < 5 * 4 * 3; k++)
-        values.push_back(std::fmod(0.37f * static_cast<float>(k), 1.f));
+    std::vector<float> values(5 * 4 * 3);
+    for (std::size_t k = 0; k < values.size(); k++)
+        values[k] = std::fmod(0.37f * static_cast<float>(k), 1.f);
     for (TextureFilter filter : {TextureFilter::bilinear, TextureFilter::nearest})
         for (TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror, TextureWrap::clamp}) {
             Looked truth{5, 4, values, filter, wrap};
@@ -164,7 +164,7 @@ TEST_CASE("Textures: components of every kind and number are decoded", "[texture
     auto at = [](const Textured<Rgb>& color, double x) {
         return albedo(DiffuseBsdf{color}, x, 0.5, Precision::single_precision);
     };
-    auto image = [&](TexelComponent component, int channels, std::vector<float> values,
+    auto image = [&](TexelComponent component, int channels, const std::vector<float>& values,
                      bool srgb = false, bool raw = false) {
         return textured(texels_of(2, 1, channels, component, values, srgb), TextureFilter::nearest,
                         TextureWrap::repeat, raw);
@@ -316,7 +316,7 @@ TEST_CASE("Textures: a number is a colour's luminance, of a checkerboard the oth
 }
 
 TEST_CASE("Textures: values that a parameter cannot take are refused", "[textures]") {
-    auto refusal = [](std::vector<float> values, Domain domain) -> std::string {
+    auto refusal = [](const std::vector<float>& values, Domain domain) -> std::string {
         TexelSource source = texels_of(1, 2, 1, TexelComponent::single, values);
         source.name = "wild.exr";
         Textured<Rgb> color = textured(Texture{"", glm::dmat3(1), BitmapTexture{source}}, domain);
