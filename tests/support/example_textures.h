@@ -25,9 +25,10 @@ inline TexelSource texels_of(int width, int height, int channels, TexelComponent
     TexelLayout layout{width, height, channels, component, srgb};
     return {name, layout, [=](std::span<std::byte> to) {
                 for (std::size_t k = 0; k < values.size(); k++) {
-                    auto byte = static_cast<std::uint8_t>(values[k]);
+                    bool bytes = component == TexelComponent::byte;
+                    auto byte = static_cast<std::uint8_t>(bytes ? values[k] : 0.f);
                     std::uint16_t half = Imath::half(values[k]).bits();
-                    const void* from = component == TexelComponent::byte ? static_cast<void*>(&byte)
+                    const void* from = bytes ? static_cast<void*>(&byte)
                                        : component == TexelComponent::half
                                            ? static_cast<void*>(&half)
                                            : nullptr;

@@ -144,7 +144,10 @@ double Properties::required_number(std::string_view name) {
 std::int64_t Properties::integer(std::string_view name, std::int64_t missing) {
     const auto* const value = take_as<std::int64_t>(name, "<integer>");
     if (!value) return missing;
-    return static_cast<std::int64_t>(checked(name, static_cast<double>(*value)));
+    const auto real = static_cast<double>(*value);
+    const double taken = checked(name, real);
+    // What is refused, and told of, might not fit where it is used meanwhile.
+    return placed(domain(name), real) ? static_cast<std::int64_t>(taken) : missing;
 }
 
 bool Properties::boolean(std::string_view name, bool missing) {
