@@ -68,10 +68,6 @@ void begin_far(CameraRecord& r, const Camera& camera, const glm::dvec2& axis,
     r.clear_share = static_cast<float>(1.0 - camera.near_clip / frame.start);
 }
 
-} // namespace
-
-namespace {
-
 /// Of parallel rays; those of a far camera begin near the shapes, too.
 CameraRecord parallel_record(const Camera& camera, int width, int height, const SceneFrame& frame) {
     glm::dvec3 left(camera.to_world[0]), up(camera.to_world[1]), forward(camera.to_world[2]);

@@ -29,7 +29,7 @@ struct DeviceScene {
     IndexedGeometry geometry; ///< its shapes are those of the scene
     std::vector<MaterialRecord> materials;
     std::vector<LobeRecord> lobes;                         ///< lists, one behind the other
-    std::vector<MaterialTexturesRecord> material_textures; ///< as many
+    std::vector<MaterialTexturesRecord> material_textures; ///< a row a material
     std::vector<TextureRecord> textures;
     LargeVector<int> texels;
     std::vector<float> byte_values; ///< BYTE_VALUES of them where there are texels of bytes

@@ -61,12 +61,11 @@ LightBounds light_bounds(const LightRow& row) {
         // Its disk as seen from outside; all of it from inside.
         set_everywhere(bounds, bright * (row.extra > 0.0 ? 0.25 * row.area : row.area));
         break;
-    case emitter_area_cylinder: {
+    case emitter_area_cylinder:
         set_box(bounds, {a - c.x, a + c.x, a + b - c.x, a + b + c.x});
         // Its rectangle as seen from the side; all of it from inside.
         set_everywhere(bounds, bright * (row.extra > 0.0 ? row.area / std::numbers::pi : row.area));
         break;
-    }
     case emitter_point:
         set_box(bounds, {a});
         set_everywhere(bounds, bright);

@@ -12,6 +12,9 @@
 
 namespace parhelion {
 
+/// The most rows that any compression puts in a chunk: as many are read at a time.
+inline constexpr int band_rows = 256;
+
 std::pair<std::int64_t, std::int64_t> box_size(const Imath::Box2i& box);
 
 /// How many times its input a compression may grow at most; 0 where no bound is known.

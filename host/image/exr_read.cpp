@@ -21,7 +21,6 @@ namespace parhelion {
 
 namespace {
 
-constexpr int band_rows = 256;                    ///< the most rows any compression puts in a chunk
 constexpr float first_inexact_uint = 16777216.0f; ///< 2^24
 
 Image make_windows(const Imf::Header& header) {

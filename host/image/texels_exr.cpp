@@ -15,8 +15,6 @@ namespace parhelion {
 
 namespace {
 
-constexpr int band_rows = 256; ///< the most rows any compression puts in a chunk
-
 /// Names of the channels that are read: R, G, B, or Y.
 std::vector<std::string> texel_channels(const ExrSource& source, const Imf::Header& header) {
     const Imf::ChannelList& list = header.channels();
