@@ -38,7 +38,10 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
     vec3 wi = to_local(s.frame, d.sample.wi);
     wi.z = wi.z * s.side;
     BsdfEval f = bsdf_eval(s.material, s.wo, wi);
-    if (HAS(blends)) f = eval_all_lobes(w, s, f, d.sample.wi, s.lanes);
+    if (HAS(blends)) {
+        f.f = mul3(f.f, lobe_scale(w, s, s.material, s.wo, d.sample.wi, s.lanes));
+        f = eval_all_lobes(w, s, f, d.sample.wi, s.lanes);
+    }
     NOTE(towards_light, f);
     Real weight = R(1.);
     if (HAS(emission) && HAS(scattering)) {

@@ -17,13 +17,12 @@ FN vec3 lobe_scale(ShadeWork w, Shading s, Material m, vec3 wo, vec3 wi, Mask la
     return scale;
 }
 
-/// Weighted, of all lobes, `chosen` being that of the lobe that is drawn from; of other lanes the
-/// chosen alone. wi: world.
+/// Weighted, of all lobes, `chosen` being that of the lobe that is drawn from, scaled; of other
+/// lanes the chosen alone. wi: world.
 FN BsdfEval eval_all_lobes(ShadeWork w, Shading s, BsdfEval chosen, vec3 wi, Mask lanes) {
     vec3 in_frame = to_local(s.frame, wi);
     BsdfEval sum;
-    vec3 scale = lobe_scale(w, s, s.material, s.wo, wi, s.lanes);
-    sum.f = scale3(mul3(chosen.f, scale), s.lobe.weight);
+    sum.f = scale3(chosen.f, s.lobe.weight);
     sum.pdf = chosen.pdf * s.lobe.weight;
     Int code = sel(lanes, s.code, (Int)(-1));
     for (LobeWalk l = first_lobe(w.scene, code); someLane(l.inside); l = next_lobe(w.scene, l)) {
@@ -43,12 +42,12 @@ FN BsdfEval eval_all_lobes(ShadeWork w, Shading s, BsdfEval chosen, vec3 wi, Mas
 /// of its lobe has no part in others. wi: b.wi in the world.
 FN BsdfSample sample_of_all_lobes(ShadeWork w, Shading s, BsdfSample b, vec3 wi) {
     Mask spread = (b.pdf > R(0.)) & finiteR(b.pdf);
+    vec3 alone = mul3(b.weight, lobe_scale(w, s, s.material, s.wo, wi, s.lanes));
     BsdfEval chosen;
     chosen.pdf = sel(spread, b.pdf, R(0.));
-    chosen.f = scale3(b.weight, chosen.pdf);
+    chosen.f = scale3(alone, chosen.pdf);
     Mask several = spread & (s.lobe.entry >= 0);
     BsdfEval all = eval_all_lobes(w, s, chosen, wi, several);
-    vec3 alone = mul3(b.weight, lobe_scale(w, s, s.material, s.wo, wi, s.lanes));
     b.weight = sel3(several, scale3(all.f, R(1.) / sel(several, all.pdf, R(1.))), alone);
     b.pdf = sel(several, all.pdf, b.pdf);
     return b;
