@@ -19,6 +19,14 @@ struct LightTree {
     std::vector<int> leaves;            ///< the node of each light
 };
 
+/// The image of a sky; all means nothing where there is none.
+struct Environment {
+    int texture = -1;        ///< its row
+    LargeVector<int> shares; ///< of its cells (kernels/device/environment.h)
+    double mean = 0.0;       ///< of its components, over all directions
+    double peak = 0.0;       ///< largest component
+};
+
 /// How one of many lights is chosen: by what it may send to the point to be lit, or by its power
 /// alone.
 enum class LightChoice { importance, power };
@@ -35,6 +43,7 @@ struct DeviceScene {
     std::vector<float> byte_values; ///< BYTE_VALUES of them where there are texels of bytes
     std::vector<LightRecord> lights;
     LightTree light_tree;             ///< empty where there is only one light
+    Environment environment;
     std::vector<float> energy_tables; ///< one behind the other; materials know their first
     std::vector<FilterBin> filter_table;
     std::vector<float> filter_values;
@@ -42,7 +51,7 @@ struct DeviceScene {
     BvhStatistics bvh_statistics;
     int camera_root = 0; ///< differs from root where emitters are hidden from the camera
     int root = 0;
-    int constant_light = -1;        ///< row of the light table
+    int sky_light = -1;        ///< row of the light table
     FeatureDecisions features;      ///< what the kernels must have, and why
     std::vector<std::string> notes; ///< what single precision makes of the scene that the user
                                     ///< should be told, one line each; beside Scene::notes

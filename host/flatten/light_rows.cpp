@@ -150,6 +150,7 @@ struct Box {
 /// What they are made with.
 struct Surroundings {
     const SceneFrame& frame;
+    const Environment& environment;
     Box box; ///< around all primitives, device units
     const std::string& file;
 };
@@ -209,6 +210,14 @@ LightRow row_of(const DirectionalEmitter& e, const Surroundings& s) {
 LightRow row_of(const ConstantEmitter& e, const Surroundings& s) {
     LightRow row = make_row(emitter_constant, e.radiance);
     row.etendue = 4.0 * pi * pi * square(s.box.radius());
+    return row;
+}
+
+LightRow row_of(const EnvmapEmitter& e, const Surroundings& s) {
+    LightRow row = make_row(emitter_envmap, e.radiance);
+    row.a = e.to_world[0], row.b = e.to_world[1], row.c = e.to_world[2];
+    row.etendue = s.environment.mean * 4.0 * pi * pi * square(s.box.radius());
+    row.peak = s.environment.peak;
     return row;
 }
 
@@ -278,7 +287,7 @@ std::vector<LightRow> light_rows(const Scene& scene, const DeviceScene& device,
         }
         first += static_cast<int>(primitive_count(shape));
     }
-    Surroundings around{device.frame, box_around(device.geometry), scene.file};
+    Surroundings around{device.frame, device.environment, box_around(device.geometry), scene.file};
     for (const Emitter& emitter : scene.emitters)
         rows.push_back(std::visit([&](const auto& e) { return row_of(e, around); }, emitter));
     std::erase_if(rows, [](const LightRow& row) {

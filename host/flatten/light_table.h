@@ -5,7 +5,7 @@
 
 namespace parhelion {
 
-/// Fills lights, light_tree, constant_light and the primitives' light rows. Emitters without power
+/// Fills lights, light_tree, sky_light and the primitives' light rows. Emitters without power
 /// are left out.
 void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out);
 

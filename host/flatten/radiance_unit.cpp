@@ -27,7 +27,8 @@ bool has_place_only(const LightRow& row) {
 }
 
 Exponents exponents_of(const LightRow& row) {
-    double radiance = std::log2(std::max({row.radiance.r, row.radiance.g, row.radiance.b}));
+    double radiance =
+        std::log2(row.peak * std::max({row.radiance.r, row.radiance.g, row.radiance.b}));
     if (has_place_only(row))
         return {radiance - log2_square(std::max(row.distance, 1.0)),
                 radiance - log2_square(row.distance + scene_size), radiance};

@@ -38,6 +38,7 @@ inline SceneArrays scene_arrays(const DeviceScene& scene) {
             scene.lights,
             scene.light_tree.nodes,
             scene.light_tree.leaves,
+            scene.environment.shares,
             scene.energy_tables,
             scene.filter_table,
             scene.filter_values};

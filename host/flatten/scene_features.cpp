@@ -277,7 +277,7 @@ FeatureSet neutral_features() {
     for (Feature f : geometry_features)
         neutral.set(f);
     for (Feature f : emitter_features)
-        neutral.set(f, f != feature_emitter_constant);
+        neutral.set(f, f != feature_emitter_constant && f != feature_emitter_envmap);
     return neutral;
 }
 

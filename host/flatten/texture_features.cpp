@@ -2,6 +2,9 @@
 #include "host/flatten/texture_features.h"
 
 #include "host/flatten/feature_counts.h"
+#include "host/flatten/texture_records.h"
+
+#include <span>
 
 namespace parhelion {
 namespace {
@@ -18,7 +21,7 @@ auto has_row(Words... words) {
 
 void decide_texture_features(const DeviceScene& records, FeatureDecisions& out) {
     using Rows = MaterialTexturesRecord;
-    const auto& textures = records.textures;
+    const std::span<const TextureRecord> textures = surface_textures(records);
     decide_kinds(out, texture_features, textures, "textures",
                  [](const TextureRecord& t) { return TEXTURE_KIND(t.form); });
     out.decide(feature_textures, !textures.empty(), counted(textures.size(), "texture"));
@@ -31,7 +34,7 @@ void decide_texture_features(const DeviceScene& records, FeatureDecisions& out) 
     decide(feature_textured_roughness, has_row(&Rows::alpha_u, &Rows::alpha_v));
     constexpr std::array components{feature_texels_byte, feature_texels_half,
                                     feature_texels_single};
-    decide_kinds(out, components, textures, "textures", [](const TextureRecord& t) {
+    decide_kinds(out, components, records.textures, "textures", [](const TextureRecord& t) {
         bool image = TEXTURE_KIND(t.form) == texture_bitmap;
         return image ? TEXTURE_COMPONENT(t.form) : -1;
     });

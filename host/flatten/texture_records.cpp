@@ -2,6 +2,7 @@
 #include "host/flatten/texture_records.h"
 
 #include "host/flatten/attribute_texels.h"
+#include "host/flatten/environment_shares.h"
 #include "host/flatten/material_records.h"
 #include "host/flatten/texture_bounds.h"
 #include "host/image/srgb.h"
@@ -48,6 +49,12 @@ public:
         uses_.emplace_back(row, use);
         return row;
     }
+    /// Of what is no surface's: a row of its own.
+    int apart(const TextureUse& use) {
+        textures_.push_back(use.texture);
+        uses_.emplace_back(static_cast<int>(textures_.size()) - 1, use);
+        return uses_.back().first;
+    }
     const std::vector<std::shared_ptr<const Texture>>& textures() const { return textures_; }
     const std::vector<std::pair<int, TextureUse>>& uses() const { return uses_; }
 
@@ -62,13 +69,15 @@ TextureRow row_of(Rows& rows) {
     return [&rows](const TextureUse& use) { return rows(use); };
 }
 
+bool looks_at_lights(const Integrator& integrator) {
+    return integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct;
+}
+
 /// Views of geometry look at no material.
-bool looks_at_materials(const Scene& scene) {
-    const Integrator& integrator = scene.integrator;
-    bool shades =
-        integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct;
-    return shades || std::any_of(integrator.aovs.begin(), integrator.aovs.end(),
-                                 [](const AovRequest& a) { return a.kind == "albedo"; });
+bool looks_at_materials(const Integrator& integrator) {
+    return looks_at_lights(integrator) ||
+           std::any_of(integrator.aovs.begin(), integrator.aovs.end(),
+                       [](const AovRequest& a) { return a.kind == "albedo"; });
 }
 
 /// Values of 16 bits of sRGB become linear when they are read: floats have room for them.
@@ -242,21 +251,30 @@ void add_attributes(const Scene& scene, const Rows& rows, DeviceScene& out,
             add_attribute(scene, *a, static_cast<int>(row), out, bounds);
 }
 
+/// Of the image around everything, the last; -1: none.
+int sky_row(const Scene& scene, Rows& rows) {
+    for (const Emitter& emitter : scene.emitters)
+        if (const auto* sky = std::get_if<EnvmapEmitter>(&emitter)) return rows.apart(sky->image);
+    return -1;
+}
+
 } // namespace
 
 std::vector<std::shared_ptr<const Texture>> textures_of(const Scene& scene) {
     Rows rows;
     for (const Material& material : scene.materials)
         material_textures(material.bsdf, row_of(rows));
+    static_cast<void>(sky_row(scene, rows));
     return rows.textures();
 }
 
 void add_textures(const Scene& scene, DeviceScene& out) {
     out.material_textures.assign(scene.materials.size(), no_textures);
-    if (!looks_at_materials(scene)) return;
+    if (!looks_at_materials(scene.integrator)) return;
     Rows rows;
     for (std::size_t i = 0; i < scene.materials.size(); i++)
         out.material_textures[i] = material_textures(scene.materials[i].bsdf, row_of(rows));
+    const int sky = looks_at_lights(scene.integrator) ? sky_row(scene, rows) : -1;
     const Images images = place_images(scene, rows);
     read_images(images.images, out.texels);
     std::vector<ValueBounds> bounds = bounds_of(rows, images, out.texels);
@@ -270,6 +288,7 @@ void add_textures(const Scene& scene, DeviceScene& out) {
     add_attributes(scene, rows, out, bounds);
     check_values(rows, bounds);
     if (bytes) out.byte_values = make_byte_values();
+    if (sky >= 0) out.environment = make_environment(out, sky);
 }
 
 std::vector<float> make_byte_values() {
@@ -281,6 +300,11 @@ std::vector<float> make_byte_values() {
     return values;
 }
 
+std::span<const TextureRecord> surface_textures(const DeviceScene& records) {
+    std::size_t of_sky = records.environment.texture >= 0 ? 1 : 0;
+    return std::span(records.textures).first(records.textures.size() - of_sky);
+}
+
 std::size_t count_anisotropic(const DeviceScene& records) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < records.materials.size(); i++)
@@ -290,7 +314,8 @@ std::size_t count_anisotropic(const DeviceScene& records) {
 
 bool reads_uvs(const Scene& scene, const DeviceScene& records) {
     const auto& aovs = scene.integrator.aovs;
-    return std::any_of(records.textures.begin(), records.textures.end(),
+    std::span<const TextureRecord> textures = surface_textures(records);
+    return std::any_of(textures.begin(), textures.end(),
                        [](const TextureRecord& t) {
                            return TEXTURE_KIND(t.form) != texture_mesh_attribute;
                        }) ||

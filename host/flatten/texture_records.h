@@ -5,11 +5,13 @@
 #include "host/scene/scene.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace parhelion {
 
-/// Textures that parameters of materials name, each once, in the order of the device's rows.
+/// Textures that parameters of materials name, each once, and a sky's image, in the order of the
+/// device's rows.
 std::vector<std::shared_ptr<const Texture>> textures_of(const Scene& scene);
 
 /// Reads texels and adds the records of textures, and for each material which it has; none where
@@ -20,6 +22,9 @@ void add_textures(const Scene& scene, DeviceScene& out);
 /// Materials whose lobes lie along texture coordinates.
 std::size_t count_anisotropic(const DeviceScene& records);
 inline bool has_anisotropic(const DeviceScene& records) { return count_anisotropic(records) > 0; }
+
+/// All but that of a sky, which is the last.
+std::span<const TextureRecord> surface_textures(const DeviceScene& records);
 
 /// Whether texture coordinates are read: asked for as an AOV, or by textures.
 bool reads_uvs(const Scene& scene, const DeviceScene& records);

@@ -62,6 +62,12 @@ inline Emitter placed(DirectionalEmitter e, const Placement& t) {
 
 inline Emitter placed(const ConstantEmitter& e, const Placement&) { return e; }
 
+inline Emitter placed(EnvmapEmitter e, const Placement& t) {
+    for (int axis = 0; axis < 3; axis++)
+        e.to_world[axis] = t.turn * e.to_world[axis];
+    return e;
+}
+
 inline Camera placed(Camera c, const Placement& t) {
     for (int axis = 0; axis < 3; axis++)
         c.to_world[axis] = glm::dvec4(t.turn * glm::dvec3(c.to_world[axis]), 0);

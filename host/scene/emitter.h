@@ -3,6 +3,7 @@
 
 #include "host/scene/parameter.h"
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <variant>
 
@@ -32,6 +33,21 @@ struct ConstantEmitter {
     Rgb radiance{1.0}; ///< W/(m^2 sr) from every direction
 };
 
-using Emitter = std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter>;
+/// An image around everything, at infinity: its first row lies at +y of its own frame, its last at
+/// -y, between them columns run from -z over +x; texels have their values at the middle of their
+/// columns and at their rows' angles, which are evenly spread from pole to pole.
+struct EnvmapEmitter {
+    TextureUse image;         ///< a bitmap
+    glm::dmat3 to_world{1.0}; ///< orthonormal
+    Rgb radiance{1.0};        ///< of a texel of 1
+};
+
+using Emitter =
+    std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter, EnvmapEmitter>;
+
+/// Light from wherever nothing is.
+inline bool is_sky(const Emitter& e) {
+    return std::holds_alternative<ConstantEmitter>(e) || std::holds_alternative<EnvmapEmitter>(e);
+}
 
 } // namespace parhelion

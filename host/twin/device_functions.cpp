@@ -1,5 +1,7 @@
 // Functions of the kernels that read tables, as C++ in single precision.
 #include "host/twin/device_functions.h"
+
+#include "host/flatten/scene_arrays.h"
 #include "host/twin/work_item.h"
 
 #include "host/twin/opencl_names.h"
@@ -11,6 +13,7 @@ struct Kernels : WorkItem {
 #define PARHELION_REAL float
 #include "kernels/generate.cl"
 // And of shading:
+#include "device/environment.h"
 #include "device/light_table.h"
 #undef PARHELION_REAL
 };
@@ -32,6 +35,42 @@ PickedLight pick_light(const LightTree& tree, const std::array<float, 3>& p,
 float light_pmf(const LightTree& tree, const std::array<float, 3>& p, int row) {
     Kernels k = kernels_with(feature_light_tree);
     return k.light_pmf(tree.nodes.data(), tree.leaves.data(), vector(p), row, Kernels::Mask{true});
+}
+
+namespace {
+
+/// The kernels' functions with the tables of a scene, and its sky's row.
+struct SkyKernels : Kernels {
+    explicit SkyKernels(const DeviceScene& scene)
+        : Kernels{{scene.features.on()}}, texture(scene.environment.texture) {
+        SceneArrays arrays = scene_arrays(scene);
+#define TABLE_OF_SCENE(type, name) tables.name = arrays.name.data();
+        SCENE_BUFFERS(TABLE_OF_SCENE)
+#undef TABLE_OF_SCENE
+        light = load_Light(tables.lights, scene.sky_light);
+    }
+    SceneTables tables{};
+    Light light{};
+    int texture;
+};
+
+std::array<float, 3> components(const Kernels::vec3& v) { return {v.x, v.y, v.z}; }
+
+} // namespace
+
+SkyRadiance sky_seen(const DeviceScene& scene, const std::array<float, 3>& w) {
+    SkyKernels k(scene);
+    Kernels::SkySeen seen =
+        k.sky_seen(k.tables, k.light, k.texture, vector(w), Kernels::Mask{true});
+    return {components(seen.radiance), seen.pdf};
+}
+
+SkyDirection sky_chosen(const DeviceScene& scene, std::uint32_t x, std::uint32_t y) {
+    SkyKernels k(scene);
+    Kernels::Random4 r{0, 0, x, y};
+    Kernels::EmitterSample s =
+        k.sky_chosen(k.tables, k.light, k.texture, r, Kernels::Mask{true});
+    return {components(s.wi), components(s.weight), s.inverse_pdf};
 }
 
 FilterOffset sample_filter(std::span<const FilterBin> table, float u) {

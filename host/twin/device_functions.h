@@ -29,4 +29,20 @@ struct FilterOffset {
 /// A table of make_filter_table, u in [0, 1).
 FilterOffset sample_filter(std::span<const FilterBin> table, float u);
 
+struct SkyRadiance {
+    std::array<float, 3> radiance;
+    float pdf; ///< of next event estimation, solid angle
+};
+
+/// What is seen of the scene's envmap towards w (unit): sky_seen of kernels/device/environment.h.
+SkyRadiance sky_seen(const DeviceScene& scene, const std::array<float, 3>& w);
+
+struct SkyDirection {
+    std::array<float, 3> wi, weight; ///< radiance over density
+    float inverse_pdf;
+};
+
+/// The direction that next event estimation chooses by 32 random bits each: sky_chosen.
+SkyDirection sky_chosen(const DeviceScene& scene, std::uint32_t x, std::uint32_t y);
+
 } // namespace parhelion

@@ -26,10 +26,10 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.replicate_bits = std::countr_zero(static_cast<unsigned>(scene.sampler.replicates));
     p.max_depth = longest_path(scene.integrator);
     p.rr_depth = scene.integrator.rr_depth;
-    p.constant_light = device.constant_light;
+    p.sky_light = device.sky_light;
+    p.sky_texture = device.environment.texture;
     // As in Mitsuba 3: a visible sky is part of the picture to `path`, and behind it to `direct`.
     // One of no power is there too.
-    auto is_sky = [](const Emitter& e) { return std::holds_alternative<ConstantEmitter>(e); };
     p.sky_covers = scene.integrator.kind == IntegratorKind::path &&
                    !scene.integrator.hide_emitters &&
                    std::any_of(scene.emitters.begin(), scene.emitters.end(), is_sky);

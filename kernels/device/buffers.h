@@ -18,6 +18,7 @@
     X(int, texels) /* of images, one behind the other */                                           \
     X(float, byte_values) X(LightRecord, lights)                                                   \
     X(LightNodeRecord, light_nodes) X(int, light_leaves) /* the leaf of each light */              \
+    X(int, environment) /* shares of the cells of a sky's image (device/environment.h) */           \
     X(float, energy_tables)                                                                        \
     X(FilterBin, filter_table) X(float, filter_values) /* at n / FILTER_INTERVALS pixels */
 

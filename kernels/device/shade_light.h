@@ -2,6 +2,7 @@
 #ifndef PARHELION_SHADE_LIGHT_H
 #define PARHELION_SHADE_LIGHT_H
 
+#include "device/environment.h"
 #include "device/light_table.h"
 #include "device/shade_lobes.h"
 
@@ -34,6 +35,12 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
         light_picked_with(load_Light(w.scene.lights, pick.row), sel(reached, pick.pmf, R(1.)));
     DirectLight d;
     d.sample = emitter_sample(light, from, uniform2(r.z, r.w));
+    if (HAS(emitter_envmap)) {
+        Mask sky = reached & (light.kind == emitter_envmap);
+        if (someLane(sky))
+            d.sample = sel_emitter(sky, sky_chosen(w.scene, light, w.params->sky_texture, r, sky),
+                                   d.sample);
+    }
     NOTE(light, d.sample);
     vec3 wi = to_local(s.frame, d.sample.wi);
     wi.z = wi.z * s.side;

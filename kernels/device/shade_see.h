@@ -5,25 +5,31 @@
 
 #include "device/camera_lanes.h"
 #include "device/coverage.h"
+#include "device/environment.h"
 #include "device/light_table.h"
 #include "device/notes.h"
 #include "device/shade_work.h"
 
 /// Radiance of the sky for lanes that missed everything, weighted against next event estimation;
 /// nothing for the hidden ones.
-FN vec3 sky_emission(ShadeWork w, Path path, Mask hidden) {
-    Light sky = load_Light(w.scene.lights, (Int)w.params->constant_light);
-    vec3 radiance = light_radiance(sky);
-    NOTE(sky, radiance);
+FN vec3 sky_emission(ShadeWork w, Path path, Mask missed, Mask hidden) {
+    Light light = load_Light(w.scene.lights, (Int)w.params->sky_light);
+    SkySeen sky;
+    if (HAS(emitter_envmap)) {
+        sky = sky_seen(w.scene, light, w.params->sky_texture, path.direction, missed);
+    } else {
+        sky.radiance = light_radiance(light);
+        sky.pdf = emitter_constant_pdf(light, path.origin, path.direction, path.origin);
+    }
+    NOTE(sky, sky.radiance);
     Real weight = R(1.);
     if (HAS(next_event)) {
-        Real sampled = emitter_constant_pdf(sky, path.origin, path.direction, path.origin);
-        NOTE(sky_pdf, sampled);
-        weight = power_heuristic(path.pdf, sampled);
+        NOTE(sky_pdf, sky.pdf);
+        weight = power_heuristic(path.pdf, sky.pdf);
         NOTE(emission_weight, weight);
     }
     if (HAS(hide_emitters)) weight = sel(hidden, R(0.), weight);
-    return scale3(radiance, weight);
+    return scale3(sky.radiance, weight);
 }
 
 /// Radiance of the emitters the lanes hit, weighted against next event estimation.
@@ -73,9 +79,9 @@ FN vec3 seen_light(ShadeWork w, PathVertex v) {
     if (HAS(view_normals) || HAS(view_depth)) seen = view_of(w, v);
     if (!HAS(emission)) return seen;
     seen = add3(seen, surface_emission(w, v));
-    if (HAS(emitter_constant)) {
+    if (HAS(emitter_constant) || HAS(emitter_envmap)) {
         Mask sky = v.active & !v.hit, hidden = sky_hidden(w, v);
-        if (someLane(sky)) seen = sel3(sky, sky_emission(w, v.path, hidden), seen);
+        if (someLane(sky)) seen = sel3(sky, sky_emission(w, v.path, sky, hidden), seen);
     }
     return seen;
 }

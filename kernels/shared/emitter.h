@@ -20,7 +20,7 @@ FN EmitterSample emitter_sample(Light l, vec3 p, vec2 u) {
         Mask mine = l.kind == emitter_##name;                                                      \
         if (someLane(mine)) result = sel_emitter(mine, emitter_##name##_sample(l, p, u), result);  \
     }
-    EMITTERS(EMITTER_SAMPLE_CASE)
+    EMITTERS_BY_ROW(EMITTER_SAMPLE_CASE)
     return result;
 }
 
@@ -44,7 +44,7 @@ FN EmitterHit emitter_hit(Light l, vec3 p, vec3 wi, vec3 q, Mask weighted) {
                 hit.pdf = sel(bright & weighted, emitter_##name##_pdf(l, p, wi, q), hit.pdf);      \
         }                                                                                          \
     }
-    EMITTERS(EMITTER_HIT_CASE)
+    EMITTERS_BY_ROW(EMITTER_HIT_CASE)
     return hit;
 }
 

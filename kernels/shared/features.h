@@ -14,7 +14,9 @@
 #define TEXTURES(X) X(bitmap, Bitmap) X(checkerboard, Checkerboard) X(mesh_attribute, MeshAttribute)
 
 // Rows of the light table: name, whether a ray can meet it. An area emitter has one row for each of its primitives.
-#define EMITTERS(X)                                                                                \
+#define EMITTERS(X) EMITTERS_BY_ROW(X) X(envmap, 1)
+// Those of which their row tells all; an envmap has an image and a table (device/environment.h).
+#define EMITTERS_BY_ROW(X)                                                                         \
     X(area_triangle, 1) X(area_parallelogram, 1) X(area_sphere, 1) X(area_disk, 1) X(point, 0)       \
     X(spot, 0) X(directional, 0) X(constant, 1) X(area_tiny_triangle, 1) X(area_cylinder, 1)
 

@@ -48,6 +48,7 @@
 #include "shared/emitter_area_triangle.h"
 #include "shared/emitter_constant.h"
 #include "shared/emitter_directional.h"
+#include "shared/emitter_envmap.h"
 #include "shared/emitter_point.h"
 #include "shared/emitter_spot.h"
 

@@ -264,7 +264,8 @@ LAYOUT(CameraRecord, 120);
     X(int, replicate_bits)                    /* the pattern is 2^these */                          \
     X(int, max_depth)                         /* edges from the camera; INT_MAX without limit */    \
     X(int, rr_depth)                                                                               \
-    X(int, constant_light)                    /* row of the constant environment, -1: none */       \
+    X(int, sky_light)                         /* row of the light around everything, -1: none */    \
+    X(int, sky_texture)                       /* row of its image, -1: none */                     \
     X(int, sky_covers)                        /* 1: there is a sky, and it counts for alpha */       \
     X(int, filter_bins)                       /* of filter_table */                                 \
     X(int, filter_reach)                      /* pixels on each side that a sample counts for */    \
@@ -281,7 +282,7 @@ typedef struct {
     TreeSizes tree_sizes;      // of all trees
     int aov_offset[AOV_LIMIT]; // AOV_CHANNEL of each kind's first, -1: not asked for
 } RenderParams;
-LAYOUT(RenderParams, 120 + 29 * 4 + AOV_LIMIT * 4);
+LAYOUT(RenderParams, 120 + 30 * 4 + AOV_LIMIT * 4);
 
 // A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
 // Which of them a slot of the pool is, device/wave.h says.

@@ -18,7 +18,7 @@ FN ProbeOut out_emitter(EmitterSample s) {
         return out2(v2(emitter_##name##_pdf(l, p, s.wi, s.q),                                      \
                        mask_word(emitter_##name##_faces(l, s.wi, s.q))));                          \
     }
-EMITTERS(EMITTER_PROBE_FUNCTIONS)
+EMITTERS_BY_ROW(EMITTER_PROBE_FUNCTIONS)
 
 FN ProbeOut probe_any_emitter_sample(ProbeIn i) {
     return out_emitter(emitter_sample(in_Light(i, 0), in3(i, 16), in2(i, 19)));
@@ -38,6 +38,6 @@ FN ProbeOut probe_light_importance(ProbeIn i) {
 
 #define EMITTER_PROBES(name, ...) PROBE(name##_sample, "lpuu", 17) PROBE(name##_hit, "lpuu", 2)
 #define PROBES                                                                                     \
-    EMITTERS(EMITTER_PROBES)                                                                       \
+    EMITTERS_BY_ROW(EMITTER_PROBES)                                                                       \
     PROBE(any_emitter_sample, "lpuu", 17)                                                          \
     PROBE(any_emitter_hit, "lpuu", 4) PROBE(light_importance, "psdfsbbbbbbbpd", 2)

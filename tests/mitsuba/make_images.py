@@ -39,6 +39,23 @@ def pfm(width, height):
     return f"PF\n{width} {height}\n-1.0\n".encode() + struct.pack(f"<{len(values)}f", *values)
 
 
+def sky(width, height):
+    """A sky (PFM): dim and uneven, with a sun of four texels, black beside it, and a bright pole."""
+    values = []
+    for y in reversed(range(height)):
+        for x in range(width):
+            for c in range(3):
+                value = 0.05 + 0.4 * level(3 * (y * width + x) + c) / 255
+                if y in (3, 4) and x in (5, 6):
+                    value = (90, 70, 40)[c]
+                elif y in (3, 4) and x in (7, 8, 9):
+                    value = 0
+                elif y == 0:
+                    value = 1.5
+                values.append(value)
+    return f"PF\n{width} {height}\n-1.0\n".encode() + struct.pack(f"<{len(values)}f", *values)
+
+
 def colored_mesh(side):
     """A square of side x side pairs of triangles with colours at its vertices and numbers of its faces (PLY)."""
     vertices, faces = [], []
@@ -63,6 +80,7 @@ def main():
     FOLDER.mkdir(exist_ok=True)
     (FOLDER / "colors.png").write_bytes(png(7, 5, 3))
     (FOLDER / "grey.png").write_bytes(png(6, 4, 1))
+    (FOLDER / "sky.pfm").write_bytes(sky(16, 9))
     (FOLDER / "floats.pfm").write_bytes(pfm(4, 6))
     (FOLDER.parent / "meshes" / "colored.ply").write_text(colored_mesh(3))
 

@@ -36,7 +36,10 @@ Rgb panel_truth(const Scene& scene, int tile) {
     const Integrator& integrator = scene.integrator;
     Rgb nothing(0), sky(0);
     for (const Emitter& e : scene.emitters)
-        if (const auto* constant = std::get_if<ConstantEmitter>(&e)) sky = constant->radiance;
+        if (const auto* constant = std::get_if<ConstantEmitter>(&e))
+            sky = constant->radiance;
+        else if (const auto* image = std::get_if<EnvmapEmitter>(&e))
+            sky = image->radiance; // a texel of 1 is all that this camera sees of it
     bool is_lamp = tile < panel_tiles - 1;
     if (integrator.hide_emitters && (is_lamp || shows_light(integrator))) return nothing;
     if (!is_lamp) return shows_light(integrator) ? sky : nothing;

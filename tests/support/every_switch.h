@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/render/device_render.h"
+#include "tests/support/example_sky.h"
 #include "tests/support/example_textures.h"
 #include "tests/support/two_of_every.h"
 
@@ -280,6 +281,7 @@ inline std::vector<State> every_state() {
     states.push_back({"aov " #name, [](Setup& s) { ask_aov(s, #name); }});
     AOVS(AOV_STATE)
     FILM_AOVS(AOV_STATE)
+    states.push_back({"a sky of an image", [](Setup& s) { put_example_sky(s.scene); }});
     states.push_back(integrator_state("path 1", IntegratorKind::path, 1, 3));
     states.push_back(integrator_state("path 2", IntegratorKind::path, 2, 3));
     states.push_back(integrator_state("path without end", IntegratorKind::path, -1, 3));

@@ -155,7 +155,8 @@ inline void add_directional(Scene& scene, int which, Rgb power, Where) {
     scene.emitters.push_back(
         DirectionalEmitter{glm::normalize(glm::dvec3(0.4 * which, -1, -0.5)), power});
 }
-/// There is one sky, whose second example takes the place of its first.
+/// There is one sky: its second example takes the place of its first, and an image that of both
+/// (example_sky.h).
 inline void add_constant(Scene& scene, int, Rgb power, Where) {
     scene.emitters.push_back(ConstantEmitter{power});
 }
@@ -177,7 +178,7 @@ struct LightKind {
     int examples() const { return feature == feature_emitter_constant ? 1 : 2; }
 };
 #define LIGHT_KIND(name, ...) LightKind{#name, feature_emitter_##name, add_##name},
-inline constexpr std::array light_kinds{EMITTERS(LIGHT_KIND)};
+inline constexpr std::array light_kinds{EMITTERS_BY_ROW(LIGHT_KIND)};
 
 struct Light {
     std::size_t kind;

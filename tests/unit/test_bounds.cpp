@@ -3,6 +3,7 @@
 #include "host/twin/wave_memory.h"
 #include "host/twin/work_item.h"
 #include "host/waves/render_params.h"
+#include "tests/support/example_sky.h"
 #include "tests/support/example_textures.h"
 #include "tests/support/two_of_every.h"
 
@@ -30,6 +31,7 @@ void empty_byte_values(DeviceScene& s) { s.byte_values.clear(); }
 void empty_lights(DeviceScene& s) { s.lights.clear(); }
 void empty_light_nodes(DeviceScene& s) { s.light_tree.nodes.clear(); }
 void empty_light_leaves(DeviceScene& s) { s.light_tree.leaves.clear(); }
+void empty_environment(DeviceScene& s) { s.environment.shares.clear(); }
 void empty_energy_tables(DeviceScene& s) { s.energy_tables.clear(); }
 void empty_filter_table(DeviceScene& s) { s.filter_table.resize(1); }
 void empty_filter_values(DeviceScene& s) { s.filter_values.clear(); }
@@ -74,6 +76,7 @@ TEST_CASE("Bounds: every table of a scene is looked after", "[bounds]") {
         scene.film.filter.kind = FilterKind::gaussian;
         if (std::string(table.name) == "filter_table")
             scene.film.filter_method = FilterMethod::sampling;
+        if (std::string(table.name) == "environment") put_example_sky(scene);
         if (std::string(table.name) == "lobes")
             scene.shapes[0].material_front = add_blend(scene, {0.5, 0, 1});
         for (std::size_t i = 0; i < scene.materials.size(); i++)

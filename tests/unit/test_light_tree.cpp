@@ -146,8 +146,8 @@ TEST_CASE("Light tree: a sky keeps its share of the power whatever is near") {
     DeviceScene scene = make_device_scene(many_lights_scene(100, true));
     std::vector<double> pmf =
         light_probabilities(scene, in_frame(scene, {1, 0.5, 3}), {0, 1, 0}, false);
-    double share = scene.lights[std::size_t(scene.constant_light)].pmf;
-    CHECK(pmf[std::size_t(scene.constant_light)] == Approx(share).epsilon(1e-5));
+    double share = scene.lights[std::size_t(scene.sky_light)].pmf;
+    CHECK(pmf[std::size_t(scene.sky_light)] == Approx(share).epsilon(1e-5));
 }
 
 TEST_CASE("Light tree: merged cones hold both, merged boxes too") {

@@ -102,7 +102,7 @@ TEST_CASE("Record truths: rows of lights, their areas and shares of the power", 
         double unit = l.kind == emitter_point || l.kind == emitter_spot ? s2 : 1;
         check_point(l.r, l.g, l.b, radiance * unit);
     }
-    CHECK(device.constant_light == 9);
+    CHECK(device.sky_light == 9);
 }
 
 TEST_CASE("Record truths: where lights are and which way they shine", "[truths]") {

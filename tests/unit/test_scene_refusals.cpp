@@ -7,7 +7,7 @@ using Catch::Matchers::Contains;
 
 TEST_CASE("scene refusals: an unknown plugin is named with what is accepted") {
     const std::pair<std::string, std::string> cases[] = {
-        {"<shape type=\"torus\"/>", "sphere"},         {"<emitter type=\"envmap\"/>", "constant"},
+        {"<shape type=\"torus\"/>", "sphere"},         {"<emitter type=\"sunsky\"/>", "constant"},
         {"<bsdf type=\"roughplastic\"/>", "twosided"}, {"<sampler type=\"blue\"/>", "stratified"},
         {"<film type=\"specfilm\"/>", "hdrfilm"},      {"<rfilter type=\"sinc\"/>", "lanczos"},
         {"<medium type=\"homogeneous\"/>", "shape"},   {"<phase type=\"hg\"/>", "shape"},

@@ -174,7 +174,7 @@ std::vector<EmitterCase> emitter_cases() {
         c.kind = emitter_##label;                                                                  \
         all.push_back({#label, c, trace_##label});                                                 \
     }
-    EMITTERS(ADD_EMITTER)
+    EMITTERS_BY_ROW(ADD_EMITTER)
 #undef ADD_EMITTER
     return all;
 }

@@ -136,7 +136,7 @@ void Checked::check_emission(const TraceVertex& v, Counts& counts) {
     if (n.emission_weight) {
         double of_light = n.emission->pdf;
         if (!v.hit) {
-            of_light = flat_.lights[flat_.constant_light].pmf / (4 * std::numbers::pi);
+            of_light = flat_.lights[flat_.sky_light].pmf / (4 * std::numbers::pi);
             CHECK(n.emission->pdf == Approx(of_light).epsilon(1e-6));
         }
         weight = power_heuristic(pdf_, of_light);

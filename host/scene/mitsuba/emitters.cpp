@@ -1,15 +1,20 @@
 // The emitter plugins.
+#include "host/scene/mitsuba/number_parameters.h"
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
+#include "host/scene/mitsuba/textures.h"
 #include "host/scene/mitsuba/transforms.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 
 namespace parhelion::mitsuba {
 
@@ -36,8 +41,8 @@ Emitter read_point(Properties& p) {
     return PointEmitter{p.vector("position", moved), read_emission(p, "intensity")};
 }
 
-/// The cone keeps its shape only under rotations, translations and one scale for all axes.
-void check_similarity(Properties& p, const glm::dmat4& to_world) {
+/// Refuses what is no rotation, translation, and one scale for all axes.
+void check_similarity(Properties& p, const glm::dmat4& to_world, const char* what) {
     constexpr double tolerance = 1e-4;
     const glm::dmat3 m(to_world);
     const double scale = glm::length(m[2]);
@@ -45,13 +50,13 @@ void check_similarity(Properties& p, const glm::dmat4& to_world) {
         for (int j = 0; j <= i; ++j)
             if (!(std::abs(glm::dot(m[i], m[j]) / (scale * scale) - (i == j ? 1.0 : 0.0)) <
                   tolerance))
-                p.refuse_value("to_world", "a transform that deforms the cone of light",
+                p.refuse_value("to_world", std::string("a transform that deforms ") + what,
                                "rotation, translation, uniform scale");
 }
 
 Emitter read_spot(Properties& p) {
     const glm::dmat4 to_world = p.transform("to_world");
-    check_similarity(p, to_world);
+    check_similarity(p, to_world, "the cone of light");
     const double cutoff = p.number("cutoff_angle", 20.0);
     const double beam = p.number("beam_width", cutoff * 3.0 / 4.0);
     if (beam > cutoff) p.refuse_value("beam_width", std::to_string(beam), "up to cutoff_angle");
@@ -73,12 +78,37 @@ Emitter read_constant(Properties& p) {
     return ConstantEmitter{read_emission(p, "radiance")};
 }
 
+/// Its texels stand at rows from pole to pole.
+constexpr int least_rows = 2;
+
+Emitter read_envmap(Properties& p) {
+    EnvmapEmitter e;
+    BitmapTexture bitmap;
+    bitmap.source = read_image(p, "filename");
+    const int rows = bitmap.source.layout.height;
+    if (rows < least_rows)
+        p.refuse_value("filename", fmt::format("an image of {} row", rows), "2 rows or more");
+    const SourceLocation place = p.location_of("filename");
+    e.image = {std::make_shared<const Texture>(Texture{p.object().id, glm::dmat3(1.0), bitmap}),
+               place, p.title() + ": its image",
+               number_parameter("emitter", "envmap", "scale").domain};
+    const glm::dmat4 to_world = p.transform("to_world");
+    check_similarity(p, to_world, "the sky");
+    for (int axis = 0; axis < 3; axis++)
+        e.to_world[axis] = unit_direction(p, "to_world", glm::dvec3(to_world[axis]));
+    e.radiance = Rgb(p.number("scale", 1.0));
+    if (p.boolean("mis_compensation", false))
+        p.note("mis_compensation", "\"mis_compensation\" is not used; only the noise differs");
+    return e;
+}
+
 using EmitterReader = Emitter (*)(Properties&);
 
-constexpr PluginTable<EmitterReader, 5> emitter_plugins = {{{"point", read_point},
+constexpr PluginTable<EmitterReader, 6> emitter_plugins = {{{"point", read_point},
                                                             {"spot", read_spot},
                                                             {"directional", read_directional},
                                                             {"constant", read_constant},
+                                                            {"envmap", read_envmap},
                                                             {"area", nullptr}}};
 
 /// How often Mitsuba picks this emitter; zero would mean that it picks none of its light.

@@ -111,11 +111,12 @@ const NumberParameter other_parameters[] = {
     {"emitter", "area constant", "radiance", color, radiometric, power},
     {"emitter", "point spot", "intensity", color, radiometric, power},
     {"emitter", "directional", "irradiance", color, radiometric, power},
+    {"emitter", "envmap", "scale", real, radiometric, "and what its image becomes by it"},
     {"emitter", "point", "position", vector, coordinate},
     {"emitter", "directional", "direction", vector, coordinate, "not all 0"},
     {"emitter", "spot", "cutoff_angle", real, half_angle},
     {"emitter", "spot", "beam_width", real, between(0, 180).in("degrees"), "up to cutoff_angle"},
-    {"emitter", "point spot directional constant area", "sampling_weight", real, greater_than(0)},
+    {"emitter", "point spot directional constant envmap area", "sampling_weight", real, greater_than(0)},
 
     {"texture", "checkerboard", "color0", color, texture_value, "what its parameter takes"},
     {"texture", "checkerboard", "color1", color, texture_value, "what its parameter takes"},

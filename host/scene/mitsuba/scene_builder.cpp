@@ -88,7 +88,7 @@ void SceneBuilder::add_emitter(const Object& object) {
         return;
     }
     const Emitter emitter = read_emitter(document_, object, scene_.notes);
-    if (std::holds_alternative<ConstantEmitter>(emitter)) {
+    if (is_sky(emitter)) {
         if (background_)
             refuse(object.location, "a second emitter around the whole scene (the first: " +
                                         background_->to_string() + "; accepted: one)");

@@ -26,8 +26,7 @@ TextureFilter read_filter_type(Properties& p) {
 
 Texture read_bitmap(Properties& p) {
     BitmapTexture bitmap;
-    const std::string name = p.required_text("filename");
-    const SourceLocation place = p.location_of("filename");
+    bitmap.source = read_image(p, "filename");
     bitmap.filter = read_filter_type(p);
     bitmap.wrap =
         static_cast<TextureWrap>(p.choice("wrap_mode", "repeat", {"repeat", "mirror", "clamp"}));
@@ -35,14 +34,6 @@ Texture read_bitmap(Properties& p) {
     // How Mitsuba keeps them in memory, and looks them up on a GPU.
     p.choice("format", "auto", {"auto", "variant", "fp16"});
     p.boolean("accel", true);
-    try {
-        bitmap.source = open_texels(p.files().file(name, place).string());
-    } catch (const InputError& error) {
-        // What is wrong with the file itself does not say where the scene names it.
-        const std::string what = error.what();
-        if (what.starts_with(place.to_string())) throw;
-        refuse(place, what);
-    }
     return {p.object().id, read_to_uv(p), bitmap};
 }
 
@@ -72,6 +63,19 @@ constexpr PluginTable<TextureReader, texture_kind_count + 1> texture_plugins = {
     {TEXTURES(TEXTURE_PLUGIN){"rawconstant", nullptr}}};
 
 } // namespace
+
+TexelSource read_image(Properties& p, std::string_view name) {
+    const std::string file = p.required_text(name);
+    const SourceLocation place = p.location_of(name);
+    try {
+        return open_texels(p.files().file(file, place).string());
+    } catch (const InputError& error) {
+        // What is wrong with the file itself does not say where the scene names it.
+        const std::string what = error.what();
+        if (what.starts_with(place.to_string())) throw;
+        refuse(place, what);
+    }
+}
 
 double luminance(const Rgb& color) {
     return 0.212671 * color.r + 0.715160 * color.g + 0.072169 * color.b;

@@ -13,6 +13,12 @@ namespace parhelion::mitsuba {
 /// Of linear sRGB, as Mitsuba weighs it: the number that a colour is where one is wanted.
 double luminance(const Rgb& color);
 
+class Properties;
+
+/// The image in the file that a parameter names: its header is read, its texels are not. Throws
+/// InputError at the parameter.
+TexelSource read_image(Properties& p, std::string_view name);
+
 /// A texture that is not the same everywhere. An image's header is read, its texels are not. Throws
 /// InputError.
 Texture read_texture(const Document& document, const Object& object,
