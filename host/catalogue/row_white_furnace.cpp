@@ -28,13 +28,15 @@ Checks row_white_furnace(StressRun& run) {
     Checks checks;
     for (int distribution : {0, 1}) {
         std::string name = distribution ? "Beckmann" : "GGX";
-        FurnaceError metal, glass, anisotropic, ends;
+        FurnaceError metal, glass, plastic, anisotropic, ends;
         for (double alpha : furnace_roughnesses) {
             add_furnaces(lossless(material_roughconductor, distribution, alpha, alpha, 1.5), {0.3},
                          metal);
             for (double index : {1.01, 1.1, 1.5, 2.5, 1 / 1.01, 1 / 1.33, 1 / 2.5})
                 add_furnaces(lossless(material_roughdielectric, distribution, alpha, alpha, index),
                              {0.3}, glass);
+            for (double index : {1.01, 1.1, 1.49, 2.5})
+                add_coat_furnaces(distribution, alpha, index, plastic);
         }
         const std::vector<double> azimuths{0, 0.05, 0.3, 0.8, 1.2, M_PI / 2, 2.5};
         for (auto [u, v] :
@@ -52,7 +54,11 @@ Checks row_white_furnace(StressRun& run) {
                              {0.3}, ends);
         checks.push_back(furnace_check(name + " metal", metal));
         checks.push_back(furnace_check(name + " glass", glass));
+        checks.push_back(furnace_check(name + " plastic", plastic));
         checks.push_back(furnace_check(name + ", anisotropic", anisotropic));
+        for (double alpha : ends_of("roughplastic"))
+            for (double index : {1.003, 1.5, 100.0})
+                add_coat_furnaces(distribution, alpha, index, ends);
         checks.push_back(furnace_check(name + ", ends of what scenes may ask for", ends));
         run.done(0.5 + 0.5 * distribution);
     }

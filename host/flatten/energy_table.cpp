@@ -1,9 +1,13 @@
 // The share of light that rough surfaces send on by single scattering, tabulated for the device.
 #include "host/flatten/energy_table.h"
 
+#include "host/flatten/material_records.h"
+#include "host/flatten/rough_coat.h"
 #include "host/parallel.h"
 
+#include <cmath>
 #include <map>
+#include <span>
 #include <tuple>
 
 #include "host/flatten/single_scattering.h" // last: its macros have short names
@@ -16,13 +20,6 @@ namespace {
 constexpr int cosine_knots = 65, anisotropic_cosine_knots = 33;
 static_assert((ENERGY_COSINES - 1) % (cosine_knots - 1) == 0);
 static_assert((ENERGY_COSINES - 1) % (anisotropic_cosine_knots - 1) == 0);
-
-f64::Material widened(const MaterialRecord& record) {
-    f64::Material m{};
-#define WIDEN(type, name) m.name = record.name;
-    MATERIAL_FIELDS(WIDEN)
-    return m;
-}
 
 /// x in [0, 1] where the increasing function f is y.
 template<class F>
@@ -120,16 +117,50 @@ Rows table(const RoughSide& side, int azimuths) {
     return rows;
 }
 
+void append(std::vector<float>& values, const Rows& rows) {
+    for (const std::vector<double>& row : rows)
+        values.insert(values.end(), row.begin(), row.end());
+}
+
+/// What a coat sends on, of what it receives from outside, and lets through. Compensated, it sends
+/// on everything, and lets through as much of that as of single scattering.
+std::vector<float> coat_tables(const f64::Material& m, int azimuths, bool compensated) {
+    RoughSide side{m, true, f64::material_interface(m, true)};
+    Rows sent_on = table(side, azimuths);
+    side.sent = Sent::refracted;
+    Rows let_through = table(side, azimuths);
+    for (std::size_t row = 0; row < sent_on.size(); row++)
+        for (std::size_t i = 0; i < sent_on[row].size(); i++) {
+            if (compensated)
+                let_through[row][i] /= sent_on[row][i];
+            else
+                sent_on[row][i] = 1.0;
+        }
+    std::vector<float> values;
+    append(values, sent_on);
+    append(values, let_through);
+    return values;
+}
+
+/// Which materials have the same tables.
+using TableKey = std::tuple<int, int, float, float, float, float, bool>;
+
+TableKey key_of(const MaterialRecord& m, bool compensated) {
+    bool interface = (interface_materials >> m.kind) & 1;
+    return {m.kind,     m.distribution,         m.alpha_u,
+            m.alpha_v,  interface ? m.eb : 0.f, interface ? m.kr : 0.f,
+            compensated};
+}
+
 } // namespace
 
-std::vector<float> energy_tables(const MaterialRecord& record, int azimuths) {
+std::vector<float> energy_tables(const MaterialRecord& record, int azimuths, bool compensated) {
     std::vector<float> values;
     f64::Material m = widened(record);
+    if (record.kind == material_roughplastic) return coat_tables(m, azimuths, compensated);
     bool interface = record.kind == material_roughdielectric;
     for (bool outside : {true, false}) {
-        for (const std::vector<double>& row :
-             table({m, interface, f64::material_interface(m, outside)}, azimuths))
-            values.insert(values.end(), row.begin(), row.end());
+        append(values, table({m, interface, f64::material_interface(m, outside)}, azimuths));
         if (!interface) break;
     }
     return values;
@@ -140,7 +171,7 @@ bool wants_energy_compensation(const Bsdf& bsdf) {
         [](const auto& b) {
             // A table is of one roughness and one index.
             if constexpr (requires { b.energy_compensation; })
-                return b.energy_compensation && !has_textured_lobe(b);
+                return b.energy_compensation && !has_textured_lobe(b) && !has_thin_base(b);
             return false;
         },
         bsdf);
@@ -148,21 +179,28 @@ bool wants_energy_compensation(const Bsdf& bsdf) {
 
 void add_energy_tables(const Scene& scene, DeviceScene& out) {
     if (!out.features.has(feature_next_event) && !out.features.has(feature_scattering)) return;
+    struct Entry {
+        int table;
+        double inner_reflectance;
+    };
     int azimuths = out.features.has(feature_anisotropy) ? ENERGY_AZIMUTHS : 1;
-    std::map<std::tuple<int, int, float, float, float, float>, int> known;
+    std::map<TableKey, Entry> known;
     for (std::size_t i = 0; i < scene.materials.size(); i++) {
-        if (!wants_energy_compensation(scene.materials[i].bsdf)) continue;
         MaterialRecord& m = out.materials[i];
-        bool interface = m.kind == material_roughdielectric;
+        bool compensated = wants_energy_compensation(scene.materials[i].bsdf);
+        bool coat = m.kind == material_roughplastic;
+        if (!compensated && !coat) continue;
         int table = static_cast<int>(out.energy_tables.size()) / (ENERGY_COSINES * azimuths);
-        auto [entry, is_new] = known.try_emplace({m.kind, m.distribution, m.alpha_u, m.alpha_v,
-                                                  interface ? m.eb : 0.f, interface ? m.kr : 0.f},
-                                                 table);
+        auto [entry, is_new] = known.try_emplace(key_of(m, compensated), Entry{table, 0.0});
         if (is_new) {
-            std::vector<float> tables = energy_tables(m, azimuths);
+            std::vector<float> tables = energy_tables(m, azimuths, compensated);
             out.energy_tables.insert(out.energy_tables.end(), tables.begin(), tables.end());
+            if (coat)
+                entry->second.inner_reflectance =
+                    coat_inner_reflectance(m, std::span(tables).last(ENERGY_COSINES), compensated);
         }
-        m.distribution |= (1 + entry->second) << 1;
+        if (coat) m.kg = std::copysign(static_cast<float>(entry->second.inner_reflectance), m.kg);
+        m.distribution |= (1 + entry->second.table) << 1;
     }
 }
 

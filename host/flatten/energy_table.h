@@ -9,13 +9,15 @@
 
 namespace parhelion {
 
-/// Tables of a rough material: one of a conductor, two of an interface (seen from outside, from
-/// inside), each of `azimuths` rows of ENERGY_COSINES values. One azimuth is enough for an
-/// isotropic material.
-std::vector<float> energy_tables(const MaterialRecord& material, int azimuths);
+/// Tables of a rough material, each of `azimuths` rows of ENERGY_COSINES values: one of a
+/// conductor, two of an interface (seen from outside, from inside), two of a rough coat (what it
+/// sends on, what it lets through). One azimuth is enough for an isotropic material. `compensated`
+/// or not: of a coat, which has them either way.
+std::vector<float> energy_tables(const MaterialRecord& material, int azimuths,
+                                 bool compensated = true);
 
-/// Adds the tables of all materials that are to be compensated, equal ones once, and tells their
-/// records where they are; none where the kernels' features say that nothing is scattered.
+/// Adds the tables of all materials that need them, equal ones once, and tells their records where
+/// they are; none where the kernels' features say that nothing is scattered.
 void add_energy_tables(const Scene& scene, DeviceScene& out);
 
 /// Does the material ask for it?

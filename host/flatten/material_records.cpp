@@ -56,6 +56,10 @@ void set_roughness(MaterialRecord& m, const parameter::Roughness::Value& r) {
     m.alpha_v = static_cast<float>(or_one(r.alpha_v));
 }
 
+void set_roughness(MaterialRecord& m, const parameter::EvenRoughness::Value& r) {
+    set_roughness(m, parameter::Roughness::Value{r.distribution, r.alpha, r.alpha});
+}
+
 void set_nothing(const MaterialRecord&, bool) {} // for the host alone
 
 /// Fresnel reflectance of light from everywhere, weighted by the cosine.
@@ -82,6 +86,14 @@ void derive(MaterialRecord& m, const PlasticBsdf& b) {
     m.kb = 0.f;
 }
 
+/// A rough one's comes with its table, as does what it lets through; until then it is a smooth
+/// one's, and everything.
+void derive(MaterialRecord& m, const RoughPlasticBsdf& b) {
+    double inside = inner_reflectance(b.eta);
+    m.kg = static_cast<float>(b.nonlinear ? -inside : inside);
+    m.kb = m.eg = 1.f;
+}
+
 // Textures of parameters, by the same word.
 
 using Rows = MaterialTexturesRecord;
@@ -101,6 +113,7 @@ void texture_roughness(Rows& t, const parameter::Roughness::Value& r, const Text
     t.alpha_u = row(r.alpha_u.texture);
     t.alpha_v = row(r.alpha_v.texture);
 }
+void texture_roughness(const Rows&, const parameter::EvenRoughness::Value&, const TextureRow&) {}
 void texture_interface(const Rows&, double, const TextureRow&) {}
 void texture_alpha_u(const Rows&, double, const TextureRow&) {}
 void texture_nothing(const Rows&, bool, const TextureRow&) {}

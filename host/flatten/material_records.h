@@ -26,7 +26,9 @@ inline constexpr MaterialTexturesRecord no_textures{MATERIAL_TEXTURES_FIELDS(NO_
 /// Rows of the textures that tell words of the record above.
 MaterialTexturesRecord material_textures(const Bsdf& bsdf, const TextureRow& row);
 
-#define IS_ROUGHNESS(Kind, ...) || std::is_same_v<parameter::Kind, parameter::Roughness>
+#define IS_ROUGHNESS(Kind, ...)                                                                    \
+    || std::is_same_v<parameter::Kind, parameter::Roughness> ||                                    \
+        std::is_same_v<parameter::Kind, parameter::EvenRoughness>
 #define ROUGH_BIT(name, ...) | ((false PARAMETERS_##name(IS_ROUGHNESS)) << material_##name)
 /// Bit k: material kind k has microfacets, by its parameters.
 inline constexpr int rough_materials = 0 MATERIALS(ROUGH_BIT);

@@ -261,7 +261,7 @@ void decide_energy_compensation(const Scene& scene, DeviceScene& records) {
         count_of(scene.materials, "materials make up for what they scatter more than once",
                  [](const Material& m) { return wants_energy_compensation(m.bsdf); });
     records.features.decide(
-        feature_energy_compensation, values > 0,
+        feature_energy_compensation, asking.any && values > 0,
         fmt::format("{}, {} of energy tables", asking.text, counted(values, "value")));
 }
 

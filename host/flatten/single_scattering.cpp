@@ -22,9 +22,9 @@ double share_sent_on(const RoughSide& side, f64::vec3 wo, double u, double v) {
     double unmasked = reflected.z > 0.0 ? f64::microfacet_g1(side.material, reflected) : 0.0;
     if (!side.is_interface) return n.weight * unmasked;
     f64::Fresnel f = f64::fresnel_dielectric(cosine, side.face);
-    double share = f.reflectance * unmasked;
+    double share = side.sent == Sent::refracted ? 0.0 : f.reflectance * unmasked;
     f64::vec3 refracted = f64::refract_about(wo, n.h, cosine, f.g, side.face);
-    if (refracted.z < 0.0) {
+    if (refracted.z < 0.0 && side.sent != Sent::reflected) {
         refracted.z = -refracted.z;
         share += f.transmittance * f64::microfacet_g1(side.material, refracted);
     }
@@ -121,6 +121,13 @@ double integrate(const F& f, const Sample& a, const Sample& m, const Sample& b, 
 }
 
 } // namespace
+
+f64::Material widened(const MaterialRecord& record) {
+    f64::Material m{};
+#define WIDEN(type, name) m.name = record.name;
+    MATERIAL_FIELDS(WIDEN)
+    return m;
+}
 
 double single_scattering(const RoughSide& side, f64::vec3 wo, bool symmetric) {
     constexpr double tolerance = 3e-4; // of the whole, for each piece

@@ -28,6 +28,9 @@ struct MaterialCase {
     int distribution; // 0 GGX, 1 Beckmann
 };
 
+/// What rough coats let through without their tables, whatever the direction.
+inline constexpr double coat_share = 0.6;
+
 template<class P>
 typename P::Material make_material(const MaterialCase& c) {
     using Real = typename P::Real;
@@ -45,6 +48,8 @@ typename P::Material make_material(const MaterialCase& c) {
         m.kg = inside.m_high, m.kb = inside.m_low;
     }
     if (c.kind == material_plastic) m.kg = Real(inner_reflectance(c.index)), m.kb = Real(0);
+    if (c.kind == material_roughplastic)
+        m.kg = Real(inner_reflectance(c.index)), m.kb = m.eg = Real(coat_share);
     m.alpha_u = Real(c.alpha_u), m.alpha_v = Real(c.alpha_v);
     m.distribution = c.distribution;
     return m;
@@ -91,6 +96,9 @@ inline std::vector<MaterialCase> material_cases() {
 /// The most that may be sent on of what is received. The model of rough matte surfaces is no more
 /// exact than this: A + B / 2 of what grazes them (Oren and Nayar 1994, their A and B integrated).
 inline double most_sent_on(const MaterialCase& c) {
+    // What a coat lets through is not what is left of what it reflects, but for its tables.
+    if (c.kind == material_roughplastic)
+        return 1 + coat_share * coat_share / (c.index * c.index * (1 - inner_reflectance(c.index)));
     if (c.kind != material_roughdiffuse) return 1;
     double variance = c.alpha_u * c.alpha_u / 2;
     return std::max(1.0,

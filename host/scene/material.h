@@ -29,11 +29,19 @@ using Bsdf = VariantOf<void MATERIALS(BSDF_TYPE)>::Type; ///< its index is the M
 template<class Kind>
 bool has_textured_lobe(const Kind& b) {
     bool textured = false;
-    if constexpr (requires { b.roughness; })
+    if constexpr (requires { b.roughness.alpha_u; })
         textured = b.roughness.alpha_u.texture || b.roughness.alpha_v.texture;
     if constexpr (requires { b.index; })
         textured = textured || b.index.eta.texture || b.index.k.texture;
     return textured;
+}
+
+/// Whether the base below a rough coat is optically thinner than what is above it: as soon as its
+/// coat loses nothing, more light leaves it than comes in.
+template<class Kind>
+bool has_thin_base(const Kind& b) {
+    if constexpr (requires { b.nonlinear; }) return b.eta < 1.0;
+    return false;
 }
 
 struct Material {

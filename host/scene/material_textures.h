@@ -9,6 +9,8 @@ namespace parhelion {
 
 template<class Visit>
 void visit_textures(double, const Visit&) {}
+template<class Visit>
+void visit_textures(const parameter::EvenRoughness::Value&, const Visit&) {}
 template<class T, class Visit>
 void visit_textures(const Textured<T>& value, const Visit& visit) {
     if (value.texture) visit(value.texture);

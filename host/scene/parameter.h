@@ -50,6 +50,14 @@ struct Roughness {
     };
 };
 
+/// Of microfacets that lie the same way in every direction: `distribution` and `alpha`.
+struct EvenRoughness {
+    struct Value {
+        MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
+        double alpha = 0.1;
+    };
+};
+
 } // namespace parameter
 
 inline constexpr double glass_in_air = 1.5046 / 1.000277; ///< relative index of BK7

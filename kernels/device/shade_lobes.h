@@ -30,7 +30,9 @@ FN BsdfEval eval_all_lobes(ShadeWork w, Shading s, BsdfEval chosen, vec3 wi, Mas
         Material m = material_of_row(w, s.place, l.lobe.material, other);
         Real side = side_to_viewer(m, s.wo.z * s.side);
         vec3 wo = v3(s.wo.x, s.wo.y, s.wo.z * s.side * side);
-        BsdfEval e = bsdf_eval(m, wo, v3(in_frame.x, in_frame.y, in_frame.z * side));
+        if (HAS(bsdf_roughplastic)) m = coat_seen_from(w.scene.energy_tables, m, wo, other);
+        vec3 wi_above = v3(in_frame.x, in_frame.y, in_frame.z * side);
+        BsdfEval e = eval_material(w.scene, m, wo, wi_above, other);
         e.f = mul3(e.f, lobe_scale(w, s, m, wo, wi, other));
         sum.f = sel3(other, add3(sum.f, scale3(e.f, l.lobe.weight)), sum.f);
         sum.pdf = sel(other, sum.pdf + e.pdf * l.lobe.weight, sum.pdf);

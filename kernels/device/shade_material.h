@@ -2,8 +2,8 @@
 #ifndef PARHELION_SHADE_MATERIAL_H
 #define PARHELION_SHADE_MATERIAL_H
 
+#include "device/coated_material.h"
 #include "device/coverage.h"
-#include "device/energy_table.h"
 #include "device/lobes.h"
 #include "device/notes.h"
 #include "device/shade_work.h"
@@ -103,6 +103,8 @@ FN Real side_to_viewer(Material m, Real z) {
 FN Shading turned_to_viewer(ShadeWork w, PathVertex v, Shading s) {
     s.side = side_to_viewer(s.material, s.wo.z);
     if (HAS(back_materials)) s.wo.z = s.wo.z * s.side;
+    if (HAS(bsdf_roughplastic))
+        s.material = coat_seen_from(w.scene.energy_tables, s.material, s.wo, s.lanes);
     s.throughput = v.path.throughput;
     if (!HAS(blends) && HAS(energy_compensation)) { // of blends: shade_lobes.h
         vec3 gain = compensate_energy(w.scene.energy_tables, s.material, s.wo, s.lanes);

@@ -6,8 +6,16 @@
 // double by the host. The scale depends on wo alone, so that lobes lose their reciprocity by it.
 
 /// First of the material's tables; -1: it has none. An interface has two, seen from outside and
-/// from inside.
+/// from inside; a rough coat too: the share that it sends on (1 where it is not scaled), and of
+/// that, the share that it lets through.
 FN Int energy_table(Material m) { return (m.distribution >> 1) - 1; }
+
+/// Whether what single scattering sends on is in part refracted.
+FN Mask scatters_both_ways(Material m) {
+    Mask both = m.kind == material_roughdielectric;
+    if (HAS(bsdf_roughplastic)) both = both | (m.kind == material_roughplastic);
+    return both;
+}
 
 /// What E(wo) is interpolated from: the entries at `at` and behind it; where lobes are anisotropic
 /// also those ENERGY_COSINES further. The parts of the way from the first to the second.
@@ -34,9 +42,13 @@ typedef struct {
 } EnergyScale;
 
 /// The roughness; of an interface about the smaller of that and eta^2 - 1, as light that grazes
-/// equal indices is all but lost.
+/// equal indices is all but lost. Of a coat, which changes towards grazing angles even if it is
+/// smooth, not much less than LEAST_COAT_SCALE.
+#define LEAST_COAT_SCALE .002
 FN EnergyScale energy_scale(Material m, Real alpha) {
-    Mask interface = m.kind == material_roughdielectric;
+    if (HAS(bsdf_roughplastic))
+        alpha = sel(m.kind == material_roughplastic, alpha + R(LEAST_COAT_SCALE), alpha);
+    Mask interface = scatters_both_ways(m);
     Real contrast = absR(m.eb);
     EnergyScale a;
     a.p = sel(interface, alpha * contrast, alpha);
@@ -86,12 +98,13 @@ FN EnergyPlace energy_place(Material m, vec3 wo) {
     return place;
 }
 
-/// What lobes of the material are scaled by, where E(wo) is `energy`. An interface sends on all it
-/// receives, by 1/E. A metal sends on F <F>^n of what it scatters n times more: 1 + <F> (1 - E)/E,
-/// <F> being its average reflectance, which its record keeps in place of a transmittance.
+/// What lobes of the material are scaled by, where E(wo) is `energy`. An interface, a coat's too,
+/// sends on all it receives, by 1/E. A metal sends on F <F>^n of what it scatters n times more: 1 +
+/// <F> (1 - E)/E, <F> being its average reflectance, which its record keeps in place of a
+/// transmittance.
 FN vec3 energy_gain(Material m, Real energy) {
     Real inverse = R(1.) / energy, lost = inverse - 1.f;
     vec3 again = material_transmittance(m);
     vec3 metal = v3(R(1.) + again.x * lost, R(1.) + again.y * lost, R(1.) + again.z * lost);
-    return sel3(m.kind == material_roughdielectric, splat3(inverse), metal);
+    return sel3(scatters_both_ways(m), splat3(inverse), metal);
 }

@@ -22,7 +22,8 @@
     X(roughdielectric, RoughDielectric, transparent)                                               \
     X(null, Null, passing)                                                                         \
     X(roughdiffuse, RoughDiffuse, matte)                                                           \
-    X(plastic, Plastic, opaque)
+    X(plastic, Plastic, opaque)                                                                    \
+    X(roughplastic, RoughPlastic, opaque)
 
 // Parameters: what it is (host/scene/parameter.h), name, value of one that is missing, where its numbers may lie
 // (a domain of host/scene/mitsuba/number_parameters.cpp, or one in brackets), what it becomes in a MaterialRecord: one of
@@ -66,6 +67,14 @@
     X(Color, diffuse_reflectance, 0.5, share, reflectance)                                         \
     X(Color, specular_reflectance, 1.0, share, transmittance)                                      \
     X(Flag, nonlinear, false, , nothing)
+
+#define PARAMETERS_roughplastic(X)                                                                 \
+    X(EvenRoughness, roughness, , glass_roughness, roughness)                                      \
+    X(SeparateIndex, eta, plastic_in_air, refractive_index, interface)                             \
+    X(Color, diffuse_reflectance, 0.5, share, reflectance)                                         \
+    X(Color, specular_reflectance, 1.0, share, transmittance)                                      \
+    X(Flag, nonlinear, false, , nothing)                                                           \
+    X(Flag, energy_compensation, true, , nothing)
 // clang-format on
 
 #define KIND_MATERIAL(name, ...) material_##name,

@@ -38,6 +38,7 @@
 #include "shared/bsdf_roughconductor.h"
 #include "shared/bsdf_roughdielectric.h"
 #include "shared/bsdf_roughdiffuse.h"
+#include "shared/bsdf_roughplastic.h"
 #include "shared/bsdf_thindielectric.h"
 
 #include "shared/emitter_area_cylinder.h"

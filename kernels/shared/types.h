@@ -74,7 +74,8 @@
 // Dielectrics keep their index in (er, eg, eb, kr, kg, kb): eta, 1/eta, and the high and low parts of eta^2 - 1 seen
 // from the outside and from the inside (the low parts decide on which side of the critical angle a direction lies).
 // Plastics keep just the outside and, in kg, the average reflectance of their coat from inside, less than 0 if it is nonlinear; and the
-// tint of what their coat mirrors in place of a transmittance.
+// tint of what their coat mirrors in place of a transmittance. So do rough plastics, whose coat lets through what their table says
+// (device/energy_table.h): in kb of light to the viewer, in eg of light from where it comes.
 // Rough conductors keep their reflectance, averaged over the cosine, in place of a transmittance.
 #define MATERIAL_FIELDS(X)                                                                         \
     X(int, kind)                                                                                   \

@@ -27,10 +27,11 @@ std::string vector(const char* tag, const char* name, Draws& draws) {
     return fmt::format("<{} name=\"{}\" value=\"{}\"/>", tag, name, triple(x, y, draws.place()));
 }
 
-std::string roughness(Draws& draws) {
+/// `even`: the same in every direction.
+std::string roughness(Draws& draws, bool even = false) {
     const char* distribution = draws.one_of({"ggx", "beckmann"});
     std::string text = fmt::format("<string name=\"distribution\" value=\"{}\"/>", distribution);
-    if (draws.chance(0.5)) return text + number("alpha", draws.roughness());
+    if (even || draws.chance(0.5)) return text + number("alpha", draws.roughness());
     text += number("alpha_u", draws.roughness());
     return text + number("alpha_v", draws.roughness());
 }
@@ -52,7 +53,7 @@ std::string bsdf(Draws& draws, int nesting = 3) {
     auto plugin = [](const char* type, const std::string& inside) {
         return fmt::format("<bsdf type=\"{}\">{}</bsdf>", type, inside);
     };
-    switch (draws.below(nesting > 0 ? 12 : 10)) {
+    switch (draws.below(nesting > 0 ? 13 : 11)) {
     case 0:
     case 1:
         return plugin("diffuse", tint("reflectance", draws));
@@ -71,9 +72,12 @@ std::string bsdf(Draws& draws, int nesting = 3) {
     case 8:
         return plugin("plastic", glass(draws) + tint("diffuse_reflectance", draws) +
                                      tint("specular_reflectance", draws));
-    case 10:
+    case 9:
+        return plugin("roughplastic",
+                      roughness(draws, true) + glass(draws) + tint("diffuse_reflectance", draws));
+    case 11:
         return plugin("mask", number("opacity", draws.share()) + bsdf(draws, nesting - 1));
-    case 11: {
+    case 12: {
         std::string weight = number("weight", draws.share()), first = bsdf(draws, nesting - 1);
         return plugin("blendbsdf", weight + first + bsdf(draws, nesting - 1));
     }

@@ -151,7 +151,8 @@ TEST_CASE("Textures: every way to compile the kernels gives the bits of the host
                 if constexpr (requires { b.specular_transmittance; })
                     b.specular_transmittance = texture();
                 if constexpr (requires { b.index; }) b.index = {texture(), texture()};
-                if constexpr (requires { b.roughness; }) b.roughness.alpha_u = as_number(texture());
+                if constexpr (requires { b.roughness.alpha_u; })
+                    b.roughness.alpha_u = as_number(texture());
             },
             m.bsdf);
     // The wall's material is no other shape's: it can be an attribute of a mesh.

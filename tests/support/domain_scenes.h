@@ -49,7 +49,7 @@ inline constexpr const char* white_bsdf = "<bsdf type='twosided'><bsdf type='dif
 inline std::string companions(std::string_view plugin, std::string_view name) {
     if (name == "alpha_u") return "<float name='alpha_v' value='0.1'/>";
     if (name == "alpha_v") return "<float name='alpha_u' value='0.1'/>";
-    if (plugin == "plastic" && name != "diffuse_reflectance")
+    if ((plugin == "plastic" || plugin == "roughplastic") && name != "diffuse_reflectance")
         return "<float name='diffuse_reflectance' value='1'/>";
     if (plugin == "mask") return white_bsdf;
     if (plugin == "blendbsdf") return fmt::format("{0}{0}", white_bsdf);

@@ -105,8 +105,10 @@ inline void set_textured_index(Setup& s, bool on) {
 }
 inline void set_textured_roughness(Setup& s, bool on) {
     if (!on) return;
-    change_rough(s.scene,
-                 [](auto& r) { r.alpha_u = r.alpha_v = as_number(example_checkerboard()); });
+    change_rough(s.scene, [](auto& r) {
+        if constexpr (requires { r.alpha_u; })
+            r.alpha_u = r.alpha_v = as_number(example_checkerboard());
+    });
 }
 inline void set_texels_byte(Setup& s, bool on) {
     if (on) set_reflectances(s, textured(example_texels(TexelComponent::byte)));
@@ -156,7 +158,10 @@ inline void set_beckmann(Setup& s, bool on) {
     if (!on) change_rough(s.scene, [](auto& r) { r.distribution = MicrofacetDistribution::ggx; });
 }
 inline void set_anisotropy(Setup& s, bool on) {
-    if (!on) change_rough(s.scene, [](auto& r) { r.alpha_v = r.alpha_u; });
+    if (!on)
+        change_rough(s.scene, [](auto& r) {
+            if constexpr (requires { r.alpha_u; }) r.alpha_v = r.alpha_u;
+        });
 }
 inline void set_energy_compensation(Setup& s, bool on) { set_energy_compensation(s.scene, on); }
 inline void set_faure(Setup& s, bool on) {

@@ -57,6 +57,9 @@ inline void set_unlike(parameter::SeparateIndex, double& v, Unlike& u) { v = 1 +
 inline void set_unlike(parameter::ComplexIndex, parameter::ComplexIndex::Value& v, Unlike& u) {
     v = {u.color(), Rgb(4.0 * u.color())};
 }
+inline void set_unlike(parameter::EvenRoughness, parameter::EvenRoughness::Value& v, Unlike& u) {
+    v = {MicrofacetDistribution::ggx, u.share()};
+}
 inline void set_unlike(parameter::Roughness, parameter::Roughness::Value& v, Unlike& u) {
     v = {MicrofacetDistribution::ggx, u.share(), u.share()};
 }
@@ -99,11 +102,17 @@ inline std::string in_file(parameter::ComplexIndex, std::string_view,
                            const parameter::ComplexIndex::Value& v) {
     return in_file(parameter::Color{}, "eta", v.eta) + in_file(parameter::Color{}, "k", v.k);
 }
+inline std::string in_file(MicrofacetDistribution d) {
+    bool ggx = d == MicrofacetDistribution::ggx;
+    return fmt::format("<string name='distribution' value='{}'/>", ggx ? "ggx" : "beckmann");
+}
+inline std::string in_file(parameter::EvenRoughness, std::string_view,
+                           const parameter::EvenRoughness::Value& v) {
+    return in_file(v.distribution) + in_file(parameter::Number{}, "alpha", v.alpha);
+}
 inline std::string in_file(parameter::Roughness, std::string_view,
                            const parameter::Roughness::Value& v) {
-    bool ggx = v.distribution == MicrofacetDistribution::ggx;
-    return fmt::format("<string name='distribution' value='{}'/>", ggx ? "ggx" : "beckmann") +
-           in_file(parameter::Number{}, "alpha_u", v.alpha_u.constant) +
+    return in_file(v.distribution) + in_file(parameter::Number{}, "alpha_u", v.alpha_u.constant) +
            in_file(parameter::Number{}, "alpha_v", v.alpha_v.constant);
 }
 
@@ -124,6 +133,10 @@ inline std::vector<parameter::ComplexIndex::Value> varied(const parameter::Compl
     for (const Rgb& k : varied(v.k))
         values.push_back({v.eta, k});
     return values;
+}
+inline std::vector<parameter::EvenRoughness::Value>
+varied(const parameter::EvenRoughness::Value& v) {
+    return {{MicrofacetDistribution::beckmann, v.alpha}, {v.distribution, v.alpha * 1.0625}};
 }
 inline std::vector<parameter::Roughness::Value> varied(const parameter::Roughness::Value& v) {
     return {{MicrofacetDistribution::beckmann, v.alpha_u, v.alpha_v},

@@ -54,6 +54,11 @@ inline Bsdf example_roughdiffuse(int which) {
 inline Bsdf example_plastic(int which) {
     return PlasticBsdf{which ? 1.8 : 1.3, Rgb(0.3, 0.5, 0.7), Rgb(which ? 1.0 : 0.5), which != 0};
 }
+inline Bsdf example_roughplastic(int which) {
+    RoughPlasticBsdf b{{MicrofacetDistribution::beckmann, 0.3}, 1.3, Rgb(0.7, 0.5, 0.3), Rgb(0.8)};
+    if (which) b = {{MicrofacetDistribution::ggx, 0.2}, 1.8, Rgb(0.5), Rgb(1.0), true};
+    return b;
+}
 
 using Example = Bsdf (*)(int);
 #define EXAMPLE_MATERIAL(name, ...) example_##name,

@@ -64,6 +64,16 @@ TEST_CASE("Domain notes: energy compensation of very different roughnesses", "[d
             .empty());
 }
 
+TEST_CASE("Domain notes: energy compensation of a coat over what is thinner", "[domains]") {
+    const auto notes = [](const char* inside, const char* more) {
+        return notes_of(with_roughness("roughplastic", number("int_ior", inside) +
+                                                           number("ext_ior", "1.33") + more));
+    };
+    CHECK(notes("1.34", "").empty());
+    CHECK_THAT(notes("1.3", ""), Contains("scene.xml:2") && Contains("energy compensation"));
+    CHECK(notes("1.3", "<boolean name='energy_compensation' value='false'/>").empty());
+}
+
 TEST_CASE("Domain notes: pixels narrower than directions are told apart", "[domains]") {
     CHECK_THAT(camera_notes(number("fov", "1e-6")), Contains("radians"));
     CHECK_THAT(camera_notes("<string name='focal_length' value='1e9mm'/>"), Contains("radians"));

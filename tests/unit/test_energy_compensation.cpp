@@ -123,7 +123,8 @@ TEST_CASE("Energy compensation: only scenes with rough lobes have it, equal ones
     scene.materials.push_back(scene.materials[4]); // the rough metal again
     DeviceScene flat = make_device_scene(scene);
     CHECK(flat.features.has(feature_energy_compensation));
-    CHECK(flat.energy_tables.size() == 3u * ENERGY_COSINES * ENERGY_AZIMUTHS);
+    // One of the metal, two of the glass, two of the plastic.
+    CHECK(flat.energy_tables.size() == 5u * ENERGY_COSINES * ENERGY_AZIMUTHS);
     CHECK(flat.materials[4].distribution == (1 | 1 << 1));
     CHECK(flat.materials[5].distribution == (0 | 2 << 1));
     CHECK(flat.materials[0].distribution == 0);
@@ -136,4 +137,11 @@ TEST_CASE("Energy compensation: only scenes with rough lobes have it, equal ones
     flat = make_device_scene(scene);
     CHECK(!flat.features.has(feature_energy_compensation));
     CHECK(flat.energy_tables.empty());
+
+    RoughPlasticBsdf plastic;
+    plastic.energy_compensation = false;
+    scene.materials[0].bsdf = plastic;
+    flat = make_device_scene(scene); // what it lets through, but no scale
+    CHECK(!flat.features.has(feature_energy_compensation));
+    CHECK(flat.energy_tables.size() == 2u * ENERGY_COSINES * ENERGY_AZIMUTHS);
 }

@@ -52,6 +52,10 @@ void expect_roughness(Words& w, const parameter::Roughness::Value& v) {
     w.distribution = v.distribution == MicrofacetDistribution::beckmann ? 1 : 0;
     w.alpha_u = v.alpha_u.constant, w.alpha_v = v.alpha_v.constant;
 }
+void expect_roughness(Words& w, const parameter::EvenRoughness::Value& v) {
+    w.distribution = v.distribution == MicrofacetDistribution::beckmann ? 1 : 0;
+    w.alpha_u = w.alpha_v = v.alpha;
+}
 void expect_alpha(Words& w, double alpha) { w.alpha_u = alpha; }
 void expect_diffuse_reflectance(const Words&, const Textured<Rgb>&) {}
 void expect_nonlinear(const Words&, bool) {}
@@ -77,7 +81,7 @@ void expect_together(Words& w, const RoughConductorBsdf& b) {
 
 /// What the coat sends back inside, averaged over the cosine likewise: all beyond the critical
 /// angle.
-void expect_together(Words& w, const PlasticBsdf& b) {
+void expect_coat(Words& w, const auto& b) {
     expect_reflectance(w, b.diffuse_reflectance);
     expect_specular_transmittance(w, b.specular_reflectance);
     double back = 0;
@@ -88,6 +92,12 @@ void expect_together(Words& w, const PlasticBsdf& b) {
             2 * c / steps * f64::fresnel_dielectric(c, interface_of<F64>(1 / b.eta)).reflectance;
     }
     w.kg = b.nonlinear ? -back : back, w.kb = 0;
+}
+void expect_together(Words& w, const PlasticBsdf& b) { expect_coat(w, b); }
+/// Of a rough one what tables say is not there yet: it lets everything through.
+void expect_together(Words& w, const RoughPlasticBsdf& b) {
+    expect_coat(w, b);
+    w.kb = w.eg = 1;
 }
 
 #define EXPECT_PARAMETER(Kind, name, ...) expect_##name(w, b.name);
@@ -129,7 +139,11 @@ Rgb missing_specular_reflectance(const auto&) { return Rgb(1.0); }
 Rgb missing_specular_transmittance(const auto&) { return Rgb(1.0); }
 parameter::ComplexIndex::Value missing_index(const auto&) { return {Rgb(0.0), Rgb(1.0)}; }
 double missing_eta(const PlasticBsdf&) { return 1.49 / 1.000277; } // "polypropylene" in "air"
-double missing_eta(const auto&) { return 1.5046 / 1.000277; }      // "bk7" in "air"
+double missing_eta(const RoughPlasticBsdf&) { return 1.49 / 1.000277; }
+double missing_eta(const auto&) { return 1.5046 / 1.000277; } // "bk7" in "air"
+parameter::EvenRoughness::Value missing_roughness(const RoughPlasticBsdf&) {
+    return {MicrofacetDistribution::beckmann, 0.1};
+}
 parameter::Roughness::Value missing_roughness(const auto&) {
     return {MicrofacetDistribution::beckmann, 0.1, 0.1};
 }

@@ -132,7 +132,7 @@ TEST_CASE("Texture coordinates are read for lobes that lie along them, and not f
             Bsdf bsdf = example(which);
             bool anisotropic = std::visit(
                 [](const auto& b) {
-                    if constexpr (requires { b.roughness; })
+                    if constexpr (requires { b.roughness.alpha_u; })
                         return !(b.roughness.alpha_u == b.roughness.alpha_v);
                     return false;
                 },

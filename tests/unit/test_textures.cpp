@@ -128,7 +128,7 @@ bool set_textured(auto& b, int parameter, const Textured<Rgb>& value) {
         if (parameter == 1) set(b.specular_transmittance);
     if constexpr (requires { b.index; })
         if (parameter == 2 || parameter == 3) set(parameter == 2 ? b.index.eta : b.index.k);
-    if constexpr (requires { b.roughness; })
+    if constexpr (requires { b.roughness.alpha_u; })
         if (parameter == 4) {
             b.roughness.alpha_u =
                 value.texture ? as_number(value) : Textured<double>(value.constant.r);

@@ -2,6 +2,7 @@
 // Veach's power heuristic, light and throughput by the rendering equation, random numbers as those
 // of the decision that they are said to be for.
 #include "host/flatten/aov_plan.h"
+#include "host/numerics/energy.h"
 #include "host/numerics/every_kind_scene.h"
 #include "host/numerics/light_tables.h"
 #include "host/twin/sample_trace.h"
@@ -103,15 +104,12 @@ private:
     glm::dvec3 gain(const TraceVertex& v) const {
         auto m = material_of<f64::Material>(record(v));
         if (f64::energy_table(m) < 0) return glm::dvec3(1);
-        f64::EnergyPlace place = f64::energy_place(m, viewer(v));
-        auto between = [&](int at) {
-            double low = flat_.energy_tables[at], high = flat_.energy_tables[at + 1];
-            return low + place.along_cosine * (high - low);
-        };
-        double here = between(place.at);
-        if (flat_.features.has(feature_anisotropy))
-            here += place.along_azimuth * (between(place.at + ENERGY_COSINES) - here);
-        return vector(f64::energy_gain(m, here));
+        return vector(f64::energy_gain(m, tabulated_share(flat_.energy_tables, m, viewer(v))));
+    }
+    /// Where light comes from wi, on the side of the viewer.
+    f64::BsdfEval eval(const TraceVertex& v, f64::vec3 wi) const {
+        auto m = material_of<f64::Material>(record(v));
+        return bsdf_eval(coated(flat_.energy_tables, m, viewer(v), wi), viewer(v), wi);
     }
     /// Light that the geometry lets count: none where the two normals see it on different sides.
     double counted(const TraceVertex& v, const glm::dvec3& w) const {
@@ -182,7 +180,7 @@ void Checked::check_light(const TraceVertex& v, Counts& counts) {
     if (inverse_pdf > 0) CHECK(near(vector(n.light->weight), radiance * inverse_pdf, 1e-5));
     if (!n.light->distant && !n.emission) // at no distance from itself
         CHECK(near(wi, glm::normalize(vector(n.light->target) - vector(p)), 1e-3));
-    f64::BsdfEval f = bsdf_eval(material_of<f64::Material>(record(v)), viewer(v), local(v, wi));
+    f64::BsdfEval f = eval(v, local(v, wi));
     CHECK(near(vector(n.towards_light->f), vector(f.f), 1e-2, 1e-6));
     CHECK(n.towards_light->pdf == Approx(f.pdf).epsilon(1e-2).margin(1e-6));
     // Against a path that meets the light, which does not know how this surface lies.
@@ -205,8 +203,10 @@ void Checked::check_scattered(const TraceVertex& v, Counts& counts) {
     const std::array<unsigned, 4>& r = v.notes.draws[1].numbers;
     Triple wo = v.wo;
     wo[2] *= static_cast<float>(side(v));
-    f32::BsdfSample drawn = bsdf_sample(material_of<f32::Material>(record(v)), narrow(wo),
-                                        f32::uniform2(r[0], r[1]), f32::uniform01(r[2]));
+    auto m = coated(flat_.energy_tables, material_of<f32::Material>(record(v)), narrow(wo),
+                    f32::v3(0, 0, 1));
+    f32::BsdfSample drawn =
+        bsdf_sample(m, narrow(wo), f32::uniform2(r[0], r[1]), f32::uniform01(r[2]));
     CHECK(near(vector(s.wi), {drawn.wi.x, drawn.wi.y, drawn.wi.z}, 1e-5));
     if (s.pdf == 0) return; // nothing is scattered
     bool crosses = v.wo[2] * side(v) * s.wi[2] < 0;
@@ -216,8 +216,7 @@ void Checked::check_scattered(const TraceVertex& v, Counts& counts) {
     CHECK(s.eta == Approx(crosses && refracts ? eta : 1));
     counts["refraction"] += crosses && refracts;
     if (std::isinf(s.pdf)) return;
-    f64::BsdfEval f =
-        bsdf_eval(material_of<f64::Material>(record(v)), viewer(v), wide(vector(s.wi)));
+    f64::BsdfEval f = eval(v, wide(vector(s.wi)));
     CHECK(s.pdf == Approx(f.pdf).epsilon(1e-2));
     CHECK(near(vector(s.weight), vector(f.f) / f.pdf, 1e-2, 1e-4));
     counts["scattered"]++;

@@ -123,14 +123,22 @@ parameter::ComplexIndex::Value read(parameter::ComplexIndex, Properties& p, std:
     p.refuse_value("material", in_quotes(wanted), names_of(conductor_presets));
 }
 
-parameter::Roughness::Value read(parameter::Roughness, Properties& p, std::string_view,
-                                 const parameter::Roughness::Value& missing) {
+MicrofacetDistribution read_distribution(Properties& p) {
     const std::size_t kind = p.choice("distribution", "beckmann", {"beckmann", "ggx"});
-    const MicrofacetDistribution distribution =
-        kind == 0 ? MicrofacetDistribution::beckmann : MicrofacetDistribution::ggx;
     // Sampling all or only the visible normals gives the same picture with other noise.
     if (!p.boolean("sample_visible", true))
         p.note("sample_visible", "\"sample_visible\" is taken as true; only the noise differs");
+    return kind == 0 ? MicrofacetDistribution::beckmann : MicrofacetDistribution::ggx;
+}
+
+parameter::EvenRoughness::Value read(parameter::EvenRoughness, Properties& p, std::string_view,
+                                     const parameter::EvenRoughness::Value& missing) {
+    return {read_distribution(p), p.number("alpha", missing.alpha)};
+}
+
+parameter::Roughness::Value read(parameter::Roughness, Properties& p, std::string_view,
+                                 const parameter::Roughness::Value& missing) {
+    const MicrofacetDistribution distribution = read_distribution(p);
     const bool split = p.has("alpha_u") || p.has("alpha_v");
     if (!split) {
         const Textured<double> alpha = p.textured_number("alpha", missing.alpha_u);
@@ -170,6 +178,12 @@ void note_together(const Properties&, const auto&) {}
 void note_together(Properties& p, const RoughConductorBsdf& b) { note_compensation(p, b, 1.0); }
 
 void note_together(Properties& p, const RoughDielectricBsdf& b) { note_compensation(p, b, 0.3); }
+
+void note_together(Properties& p, const RoughPlasticBsdf& b) {
+    if (b.energy_compensation && has_thin_base(b))
+        p.note("int_ior", "there is no energy compensation where \"int_ior\" is less than "
+                          "\"ext_ior\"");
+}
 
 } // namespace
 

@@ -77,6 +77,8 @@ MaterialNumbers numbers(parameter::Roughness, std::string_view) {
     return {{"alpha", real}, {"alpha_u", real}, {"alpha_v", real}};
 }
 
+MaterialNumbers numbers(parameter::EvenRoughness, std::string_view) { return {{"alpha", real}}; }
+
 /// Kinds that have the same number share a row.
 void add(std::vector<NumberParameter>& rows, std::string_view plugin, const MaterialNumber& number,
          const Domain& domain) {
