@@ -103,7 +103,8 @@ FN Real side_to_viewer(Material m, Real z) {
 FN Shading turned_to_viewer(ShadeWork w, PathVertex v, Shading s) {
     s.side = side_to_viewer(s.material, s.wo.z);
     if (HAS(back_materials)) s.wo.z = s.wo.z * s.side;
-    if (HAS(bsdf_roughplastic))
+    // Without light there are no tables.
+    if (HAS(bsdf_roughplastic) && (HAS(next_event) || HAS(scattering)))
         s.material = coat_seen_from(w.scene.energy_tables, s.material, s.wo, s.lanes);
     s.throughput = v.path.throughput;
     if (!HAS(blends) && HAS(energy_compensation)) { // of blends: shade_lobes.h

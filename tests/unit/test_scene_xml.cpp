@@ -95,6 +95,16 @@ TEST_CASE("scene xml: files older than version 2.0 name parameters in camel case
     CHECK(scene.camera.to_world[3] == glm::dvec4(0, 0, 1, 1));
     CHECK(scene.integrator.max_depth == 7);
     CHECK(std::get<DiffuseBsdf>(scene.materials[0].bsdf).reflectance == Rgb(0.25));
+    // What plugins hold as well.
+    const Scene held = load_scene(folder.write(
+        "held.xml", "<scene version=\"0.5.0\"><texture type=\"checkerboard\" id=\"t\"/>"
+                    "<shape type=\"sphere\"><bsdf type=\"diffuse\">"
+                    "<ref name=\"diffuseReflectance\" id=\"t\"/></bsdf></shape>"
+                    "<shape type=\"sphere\"><bsdf type=\"plastic\"><texture "
+                    "name=\"diffuseReflectance\" type=\"checkerboard\"/></bsdf></shape>"
+                    "</scene>"));
+    CHECK(std::get<DiffuseBsdf>(held.materials[0].bsdf).reflectance.texture);
+    CHECK(std::get<PlasticBsdf>(held.materials[1].bsdf).diffuse_reflectance.texture);
     // A new file has no such names.
     CHECK_THAT(refusal_of_body("<shape type=\"sphere\"><float name=\"myRadius\" value=\"1\"/>"
                                "</shape>"),

@@ -83,9 +83,15 @@ std::string snake_case(std::string_view name) {
 }
 
 void upgrade_old_object(Object& object) {
-    if (object.plugin == "diffuse")
-        for (Parameter& parameter : object.parameters)
-            if (parameter.name == "diffuse_reflectance") parameter.name = "reflectance";
+    for (Child& child : object.children)
+        child.name = snake_case(child.name);
+    const auto rename = [](auto& named) {
+        if (named.name == "diffuse_reflectance") named.name = "reflectance";
+    };
+    if (object.plugin == "diffuse") {
+        std::for_each(object.parameters.begin(), object.parameters.end(), rename);
+        std::for_each(object.children.begin(), object.children.end(), rename);
+    }
     join_uv_transform(object);
 }
 

@@ -18,9 +18,9 @@ std::array<int, 3> parse_version(std::string_view text, const SourceLocation& pl
 /// fovAxis -> fov_axis: such files name their parameters so.
 std::string snake_case(std::string_view name);
 
-/// What Mitsuba 3 makes of a plugin of such a file, whose names are in snake_case already:
-/// `diffuse_reflectance` of diffuse is `reflectance`, and uoffset, voffset, uscale, vscale become
-/// `to_uv`, which shifts first and scales then.
+/// What Mitsuba 3 makes of a plugin of such a file, whose parameters are in snake_case already: the
+/// names of what it holds are too, `diffuse_reflectance` of diffuse is `reflectance`, and uoffset,
+/// voffset, uscale, vscale become `to_uv`, which shifts first and scales then.
 void upgrade_old_object(Object& object);
 
 } // namespace parhelion::mitsuba
