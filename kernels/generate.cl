@@ -90,6 +90,7 @@ FN Path camera_path(CameraRay ray, Int slot, Int pixel, Int sample) {
     p.throughput = splat3(R(1.));
     p.pdf = (Real)INFINITY; // emission met by a camera ray has no other strategy
     p.eta_scale = R(1.);
+    p.scattered_at = ray.origin;
     p.slot = slot;
     p.pixel = pixel;
     p.sample = sample;

@@ -1,10 +1,23 @@
 // Shadow: what next event estimation found arrives, unless something is in the way.
 #include "device/device.h"
 
+#include "device/path_vertex.h"
 #include "device/results.h"
 #include "device/state.h"
 #include "device/traverse_packet.h"
 #include "device/traverse_stream.h"
+
+/// The lanes as far as the closest of what they hit; -1: nothing.
+FN Path path_to_hit(SceneTables scene, RenderParams params, Path p, Mask lanes) {
+    PacketHit hit = traverse_packet(scene.bvh_nodes, scene.bvh_leaves, params.root,
+                                    packet_ray(p.origin, p.direction, params.tree_sizes),
+                                    params.tree_sizes, p.t, p.excluded, lanes, 0);
+    p.t = hit.t, p.b1 = hit.b1, p.b2 = hit.b2;
+    p.primitive = sel(hit.primitive == NO_PRIMITIVE, (Int)(-1), hit.primitive);
+    return p;
+}
+
+#include "device/shadow_clear.h"
 
 /// Which lanes of a packet of shadow rays have something in their way.
 FN Mask shadow_packet(global const BvhNode* nodes, global const BvhLine* leaves, StatePlace place,
@@ -17,7 +30,7 @@ FN Mask shadow_packet(global const BvhNode* nodes, global const BvhLine* leaves,
 }
 
 /// Reads: shadow state. Writes: results (r, g, b of the rays' own path slots; no other work-item
-/// has them), shadow state (blocked).
+/// has them), shadow state (blocked, whatever it is).
 kernel void shadow(KERNEL_PARAMETERS) {
     CHECK_BOUNDS();
     int segment = get_global_id(0);
@@ -32,8 +45,16 @@ kernel void shadow(KERNEL_PARAMETERS) {
         Mask blocked = HAS(ray_streams)
                            ? load_state_Int(place, shadow_blocked) != 0
                            : shadow_packet(bvh_nodes, bvh_leaves, place, params, active);
-        add_result3(results_of(results, params), result_r, shadow_at_slot(place),
-                    shadow_at_contribution(place), maskBits(active & !blocked));
+        vec3 light = shadow_at_contribution(place);
+        if (HAS(clear_shadows) && someLane(active & blocked)) {
+            SceneTables scene = {SCENE_BUFFERS(SCENE_VALUE)};
+            Real share = clear_way(scene, params, place, active & blocked, depth);
+            light = scale3(light, share);
+            blocked = blocked & !(share > R(0.));
+            store_arriving(place, light, blocked);
+        }
+        add_result3(results_of(results, params), result_r, shadow_at_slot(place), light,
+                    maskBits(active & !blocked));
     }
     AT(global ulong, statistics, statistic_count * segment + statistic_shadow_rays) +=
         (ulong)(end - base);

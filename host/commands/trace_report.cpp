@@ -72,7 +72,8 @@ json light_json(const Scene& scene, const DeviceScene& flat, const TraceVertex& 
             {"geometry_share", json_number(n.light_share.value_or(1.f))},
             {"contribution", radiance(flat.frame, v.light)},
             {"shadow_ray", v.shadow_ray},
-            {"blocked", v.blocked}};
+            {"blocked", v.blocked},
+            {"arriving", radiance(flat.frame, v.arriving)}};
 }
 
 json scattering_json(const TraceVertex& v) {

@@ -16,7 +16,8 @@ bool looks_up(const Scene& scene, const DeviceScene& records, int code, int row)
     if (code == no_material) return false;
     if (IS_BLEND(code)) {
         const Blend& b = scene.blends[BLEND_NUMBER(code)];
-        return looks_up(scene, records, b.first, row) || looks_up(scene, records, b.second, row);
+        return records.blend_textures[BLEND_NUMBER(code)] == row ||
+               looks_up(scene, records, b.first, row) || looks_up(scene, records, b.second, row);
     }
     const MaterialTexturesRecord& t = records.material_textures[code];
 #define IS_ROW(type, name) || t.name == row

@@ -38,6 +38,7 @@ struct DeviceScene {
     std::vector<MaterialRecord> materials;
     std::vector<LobeRecord> lobes;                         ///< lists, one behind the other
     std::vector<MaterialTexturesRecord> material_textures; ///< a row a material
+    std::vector<int> blend_textures; ///< of the scene's blends: row of their weight; -1: none
     std::vector<TextureRecord> textures;
     LargeVector<int> texels;
     std::vector<float> byte_values; ///< BYTE_VALUES of them where there are texels of bytes

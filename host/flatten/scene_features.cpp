@@ -37,6 +37,7 @@ bool is_beckmann(const MaterialRecord& m) { return is_rough(m) && (m.distributio
 bool is_matte(const MaterialRecord& m) { return (MATTE_MATERIALS >> m.kind) & 1; }
 bool is_opaque(const MaterialRecord& m) { return (OPAQUE_MATERIALS >> m.kind) & 1; }
 bool lets_through(const MaterialRecord& m) { return (PASSING_MATERIALS >> m.kind) & 1; }
+bool is_nothing(const MaterialRecord& m) { return m.kind == material_null; }
 
 void decide_materials(const DeviceScene& records, FeatureDecisions& out) {
     const auto& materials = records.materials;
@@ -65,16 +66,20 @@ bool is_black(const MaterialRecord& m) {
 
 /// Whether light from below finds what a front alone does to it by itself: what is opaque absorbs.
 bool follows_from(const DeviceScene& records, int front, int back) {
-    std::map<int, float> transparent; // share of each at the front, less that at the back
+    // Share of each, by the textures that tell it, at the front, less that at the back.
+    std::map<std::array<int, 1 + LOBE_FACTORS>, float> transparent;
+    auto kind = [](const LobeRecord& l) {
+        return std::array{l.material, l.factor0, l.factor1, l.factor2, l.factor3};
+    };
     bool follows = true;
     for (const LobeRecord& lobe : lobes_of(records, front))
-        if (!is_opaque(records.materials[lobe.material])) transparent[lobe.material] += lobe.weight;
+        if (!is_opaque(records.materials[lobe.material])) transparent[kind(lobe)] += lobe.weight;
     for (const LobeRecord& lobe : lobes_of(records, back)) {
         const MaterialRecord& m = records.materials[lobe.material];
         if (is_opaque(m))
             follows &= is_black(m);
         else
-            transparent[lobe.material] -= lobe.weight;
+            transparent[kind(lobe)] -= lobe.weight;
     }
     auto same = [](const auto& share) { return share.second == 0.f; };
     return follows && std::all_of(transparent.begin(), transparent.end(), same);
@@ -120,6 +125,7 @@ struct Transport {
     bool asked, lit, emission, several, next_event, through, sees, scatters, roulette;
     std::string found;
     Count passing; ///< materials that let rays go straight on
+    Count nothing; ///< of those, that are no surface at all
 };
 
 std::string edges(int longest) {
@@ -130,6 +136,7 @@ std::string edges(int longest) {
 Transport transport(const Integrator& integrator, const DeviceScene& records) {
     Transport t{};
     t.passing = count_of(records.materials, "materials let rays go straight on", lets_through);
+    t.nothing = count_of(records.materials, "materials are no surface at all", is_nothing);
     t.asked = integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct;
     if (!t.asked) {
         t.found = "no light transport is asked for";
@@ -186,6 +193,8 @@ void decide_transport(const Scene& scene, const DeviceScene& records, FeatureDec
     const char* else_what =
         looks_through ? "" : ", which this integrator takes for surfaces like others";
     out.decide(feature_straight_through, t.through, t.passing.text + else_what);
+    out.decide(feature_clear_shadows, t.through && t.next_event && t.nothing.any,
+               fmt::format("{}{}, lights are {}", t.nothing.text, else_what, sampled));
     out.decide(feature_scattering, t.scatters, t.found);
     out.decide(feature_russian_roulette, t.roulette,
                fmt::format("{}, roulette from edge {} on", t.found, integrator.rr_depth));

@@ -32,6 +32,8 @@ void decide_texture_features(const DeviceScene& records, FeatureDecisions& out) 
     decide(feature_textured_transmittance, has_row(&Rows::transmittance));
     decide(feature_textured_index, has_row(&Rows::eta, &Rows::k));
     decide(feature_textured_roughness, has_row(&Rows::alpha_u, &Rows::alpha_v));
+    decide_by_count(out, feature_textured_blends, records.lobes, "lobes",
+                    [](const LobeRecord& lobe) { return lobe.factor0 != 0; });
     constexpr std::array components{feature_texels_byte, feature_texels_half,
                                     feature_texels_single};
     decide_kinds(out, components, records.textures, "textures", [](const TextureRecord& t) {

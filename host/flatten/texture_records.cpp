@@ -264,16 +264,21 @@ std::vector<std::shared_ptr<const Texture>> textures_of(const Scene& scene) {
     Rows rows;
     for (const Material& material : scene.materials)
         material_textures(material.bsdf, row_of(rows));
+    for (const Blend& blend : scene.blends)
+        rows(blend.weight.texture);
     static_cast<void>(sky_row(scene, rows));
     return rows.textures();
 }
 
 void add_textures(const Scene& scene, DeviceScene& out) {
     out.material_textures.assign(scene.materials.size(), no_textures);
+    out.blend_textures.assign(scene.blends.size(), -1);
     if (!looks_at_materials(scene.integrator)) return;
     Rows rows;
     for (std::size_t i = 0; i < scene.materials.size(); i++)
         out.material_textures[i] = material_textures(scene.materials[i].bsdf, row_of(rows));
+    for (std::size_t i = 0; i < scene.blends.size(); i++)
+        out.blend_textures[i] = rows(scene.blends[i].weight.texture);
     const int sky = looks_at_lights(scene.integrator) ? sky_row(scene, rows) : -1;
     const Images images = place_images(scene, rows);
     read_images(images.images, out.texels);

@@ -55,10 +55,10 @@ struct Material {
 inline constexpr int no_material = -1;
 constexpr int blend_code(int number) { return BLEND_CODE(number); }
 
-/// Two in one, weighted: `second` by `weight` in (0, 1), `first` by the rest. Each is a material or
-/// again a blend.
+/// Two in one, weighted: `second` by `weight`, `first` by the rest. A weight that is the same
+/// everywhere is in (0, 1). Each is a material or again a blend.
 struct Blend {
-    double weight = 0.5;
+    Textured<double> weight = 0.5;
     int first = 0, second = 0;
 };
 

@@ -1,6 +1,8 @@
 // Adding to a scene's lists.
 #include "host/scene/scene.h"
 
+#include <utility>
+
 namespace parhelion {
 
 int add_material(Scene& scene, Material material) {
@@ -16,11 +18,14 @@ static int add_black(Scene& scene) {
 }
 
 int add_blend(Scene& scene, Blend blend) {
-    if (blend.first == blend.second || blend.weight == 0.0) return blend.first;
-    if (blend.weight == 1.0) return blend.second;
+    if (blend.first == blend.second) return blend.first;
+    if (!blend.weight.texture) {
+        if (blend.weight.constant == 0.0) return blend.first;
+        if (blend.weight.constant == 1.0) return blend.second;
+    }
     for (int* part : {&blend.first, &blend.second})
         if (*part == no_material) *part = add_black(scene);
-    scene.blends.push_back(blend);
+    scene.blends.push_back(std::move(blend));
     return blend_code(static_cast<int>(scene.blends.size()) - 1);
 }
 

@@ -28,6 +28,15 @@ struct Kernels : WorkItem {
 #undef PARHELION_REAL
 #undef PARHELION_REAL_IS_DOUBLE
 
+    Path path_to_hit(const SceneTables& scene, const RenderParams& params, Path p, bool) {
+        PlainHit hit =
+            plain_walk(scene, params.root, packet_ray(p.origin, p.direction, params.tree_sizes),
+                       p.t, p.excluded, false);
+        p.t = hit.t, p.b1 = hit.b1, p.b2 = hit.b2, p.primitive = hit.primitive;
+        return p;
+    }
+#include "device/shadow_clear.h"
+
     void intersect(KERNEL_PARAMETERS) {
         int base = number * params.segment_stride, end = base + AT(int, counts, 2 * number);
         int root = depth == 0 ? params.camera_root : params.root;
@@ -54,8 +63,16 @@ struct Kernels : WorkItem {
                 plain_walk({SCENE_BUFFERS(SCENE_VALUE)}, params.root,
                            packet_ray(ray_at_origin(place), ray_at_direction(place), sizes),
                            ray_at_t(place), ray_at_excluded(place), true);
-            add_result3(results_of(results, params), result_r, shadow_at_slot(place),
-                        shadow_at_contribution(place), hit.primitive < 0);
+            bool blocked = hit.primitive >= 0;
+            vec3 light = shadow_at_contribution(place);
+            if (blocked && FEATURES.has(feature_clear_shadows)) {
+                double share =
+                    clear_way({SCENE_BUFFERS(SCENE_VALUE)}, params, place, blocked, depth);
+                light = scale3(light, share);
+                blocked = !(share > 0);
+            }
+            add_result3(results_of(results, params), result_r, shadow_at_slot(place), light,
+                        !blocked);
         }
         AT(ulong, statistics, statistic_count * number + statistic_shadow_rays) +=
             static_cast<ulong>(end - base);

@@ -140,6 +140,7 @@ public:
         case Stage::shadow:
             run(stage, depth);
             trace_.vertices.back().blocked = path_.shadow_int(shadow_blocked) != 0;
+            trace_.vertices.back().arriving = path_.shadow3(shadow_contribution);
             break;
         case Stage::accumulate:
             add_up();
@@ -153,6 +154,11 @@ public:
 private:
     void run(Stage stage, int depth) { run_work_item(stage, launch_, depth, 0); }
     void begin_vertex(int depth);
+    /// Where there is no surface, and light that was sampled before goes through.
+    bool goes_on_as_it_was(const TraceVertex& v) const {
+        return launch_.features.has(feature_clear_shadows) &&
+               scene_.materials[v.material].kind == material_null;
+    }
     void shade(TraceVertex& v);
     void add_up();
 
@@ -184,7 +190,7 @@ void TracedWave::shade(TraceVertex& v) {
         v.goes_on = path_.lives();
         if (v.goes_on) v.throughput_after = path_.path3(path_throughput);
     }
-    if (v.notes.scattered) pdf_ = v.notes.scattered->pdf;
+    if (v.notes.scattered && !goes_on_as_it_was(v)) pdf_ = v.notes.scattered->pdf;
     find_not_finite(v);
     if (!v.not_finite.empty() && trace_.first_not_finite < 0) trace_.first_not_finite = v.bounce;
 }

@@ -23,7 +23,8 @@ struct TraceVertex {
     ShadeNotes notes;
     Triple emission{}; ///< what this vertex has added to the sample
     bool shadow_ray = false, blocked = false;
-    Triple light{}; ///< what next event estimation brings if nothing is in the way
+    Triple light{};    ///< what next event estimation brings if nothing is in the way
+    Triple arriving{}; ///< what of that arrives where it is not blocked: less through a mask
     bool goes_on = false;
     Triple throughput_after{};           ///< of the path that goes on
     std::vector<std::string> not_finite; ///< names of the values here that are not

@@ -26,7 +26,8 @@ ProgramSource group_source(ProgramGroup group, const StageOptions& options) {
     for (std::size_t i = 0; i < stage_count; i++) {
         if (stage_groups[i] != group) continue;
         program.features =
-            program.features | (options.features & stage_features(static_cast<Stage>(i)));
+            program.features |
+            (options.features & stage_features(static_cast<Stage>(i), options.features));
         files.push_back(std::string(stage_names[i]) + ".cl");
     }
     return program_source(files, program);
@@ -151,7 +152,8 @@ void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& 
 StageReport stage_report(std::size_t stage, const StageOptions& options, const Compiled& compiled) {
     StageReport report;
     report.name = stage_names[stage];
-    report.features = (options.features & stage_features(static_cast<Stage>(stage))).names();
+    report.features =
+        (options.features & stage_features(static_cast<Stage>(stage), options.features)).names();
     report.compile_seconds = compiled.seconds;
     report.cached = compiled.cached;
     return report;

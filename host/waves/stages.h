@@ -43,9 +43,20 @@ struct StageOptions {
     bool checked = false; ///< kernels look after the bounds of buffers (kernels/device/bounds.h)
 };
 
-/// The features that can change the stage's program; the rest would only make more programs of the
-/// same content.
-constexpr FeatureSet stage_features(Stage stage) {
+/// What surfaces are made of, for those that let light through.
+constexpr FeatureSet clear_surface_features() {
+#define TEXTURE_FEATURE(name, Name) feature_texture_##name,
+    constexpr FeatureSet textures{TEXTURES(TEXTURE_FEATURE)};
+    return textures | FeatureSet{feature_clear_shadows, feature_blends,
+                                 feature_textures,      feature_textured_blends,
+                                 feature_texels_byte,   feature_texels_half,
+                                 feature_texels_single, feature_vertex_normals,
+                                 feature_vertex_uvs,    feature_analytic_uvs};
+}
+
+/// The features of a scene that can change the stage's program; the rest would only make more
+/// programs of the same content.
+constexpr FeatureSet stage_features(Stage stage, const FeatureSet& scene) {
 #define SHAPE_FEATURE(name) feature_shape_##name,
     constexpr FeatureSet shapes{GEOMETRIES(SHAPE_FEATURE)};
     constexpr FeatureSet streams{feature_ray_streams};
@@ -54,9 +65,11 @@ constexpr FeatureSet stage_features(Stage stage) {
     constexpr FeatureSet camera{feature_thin_lens, feature_far_camera};
     switch (stage) {
     case Stage::generate:
-        return film | camera | FeatureSet{feature_faure, feature_replicates};
-    case Stage::intersect:
+        return film | camera | FeatureSet{feature_faure, feature_replicates, feature_clear_shadows};
     case Stage::shadow:
+        if (scene.has(feature_clear_shadows)) return shapes | streams | clear_surface_features();
+        [[fallthrough]];
+    case Stage::intersect:
         return shapes | streams;
     case Stage::accumulate:
         return FeatureSet{feature_filter_splatting} | film_only;

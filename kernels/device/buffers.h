@@ -41,10 +41,11 @@
 // A ray; t: its end, and once it has hit, how far; what it must not hit.
 #define RAY_FIELDS(X) X(vec3, origin, 1) X(vec3, direction, 1) X(Real, t, 1) X(Int, excluded, 1)
 
-// What a path takes along: throughput, density of its direction, product of the indices of refraction, its slot, its random numbers.
+// What a path takes along: throughput, density of its direction, product of the indices of refraction, its slot, its random numbers;
+// where it was last scattered, which is its origin but for what it has met since that was not there.
 #define CARRIED_FIELDS(X)                                                                          \
     X(vec3, throughput, 1) X(Real, pdf, HAS(emission)) X(Real, eta_scale, HAS(russian_roulette))    \
-    X(Int, slot, 1) X(Int, pixel, 1) X(Int, sample, 1)
+    X(Int, slot, 1) X(Int, pixel, 1) X(Int, sample, 1) X(vec3, scattered_at, HAS(clear_shadows) && HAS(emission))
 
 // What its ray has hit, and where on that.
 #define HIT_FIELDS(X) X(Real, b1, 1) X(Real, b2, 1) X(Int, primitive, 1)

@@ -5,6 +5,7 @@
 #include "device/results.h"
 #include "device/scene_tables.h"
 #include "device/state.h"
+#include "device/texture.h"
 
 typedef struct {
     Path path;
@@ -44,11 +45,11 @@ FN SurfaceInteraction surface_at(ScenePrimitive primitive, Path path, Mask hit) 
     return s;
 }
 
-/// The vertices that `left` paths are at, or a packet's first of them.
-FN PathVertex load_vertex(StatePlace place, int left, SceneTables scene) {
+/// Of the active lanes, whose path has come to its primitive; -1: nothing.
+FN PathVertex vertex_of(Path path, Mask active, SceneTables scene) {
     PathVertex v;
-    v.path = load_path(place);
-    v.active = active_lanes(left);
+    v.path = path;
+    v.active = active;
     // Lanes behind the last path hold leftovers: they count as misses, and primitive 0 stands in
     // for what they hit.
     v.hit = v.active & (v.path.primitive >= 0);
@@ -58,6 +59,30 @@ FN PathVertex load_vertex(StatePlace place, int left, SceneTables scene) {
     v.bad_hit = v.hit & (nought3(v.surface.p) + nought3(v.surface.ns) != v.path.t * R(0.));
     v.hit = v.hit & !v.bad_hit;
     return v;
+}
+
+/// The vertices that `left` paths are at, or a packet's first of them.
+FN PathVertex load_vertex(StatePlace place, int left, SceneTables scene) {
+    return vertex_of(load_path(place), active_lanes(left), scene);
+}
+
+/// Where textures are looked up.
+FN TexturePlace texture_place(PathVertex v) {
+    TexturePlace place;
+    place.uv = v.surface.uv;
+    place.primitive = v.path.primitive;
+    place.shape = PRIMITIVE_SHAPE(v.primitive.stored.shape);
+    place.b1 = v.path.b1;
+    place.b2 = v.path.b2;
+    return place;
+}
+
+/// What a ray that goes on from there may not hit: flat primitives it cannot hit again.
+FN Int excluded_behind(PathVertex v) {
+    Mask round = primitive_kind(v.primitive.whole) == geometry_sphere;
+    if (HAS(shape_cylinder))
+        round = round | (primitive_kind(v.primitive.whole) == geometry_cylinder);
+    return sel(round, (Int)(-1), v.path.primitive);
 }
 
 #endif

@@ -25,7 +25,8 @@ FN BsdfEval eval_all_lobes(ShadeWork w, Shading s, BsdfEval chosen, vec3 wi, Mas
     sum.f = scale3(chosen.f, s.lobe.weight);
     sum.pdf = chosen.pdf * s.lobe.weight;
     Int code = sel(lanes, s.code, (Int)(-1));
-    for (LobeWalk l = first_lobe(w.scene, code); someLane(l.inside); l = next_lobe(w.scene, l)) {
+    for (LobeWalk l = first_lobe(w.scene, code, s.place); someLane(l.inside);
+         l = next_lobe(w.scene, l, s.place)) {
         Mask other = l.inside & (l.entry != s.lobe.entry);
         Material m = material_of_row(w, s.place, l.lobe.material, other);
         Real side = side_to_viewer(m, s.wo.z * s.side);
@@ -60,7 +61,8 @@ FN BsdfSample sample_of_all_lobes(ShadeWork w, Shading s, BsdfSample b, vec3 wi)
 FN vec3 all_lobes_reflectance(ShadeWork w, Shading s) {
     vec3 sum = splat3(R(0.));
     Real there = R(0.);
-    for (LobeWalk l = first_lobe(w.scene, s.code); someLane(l.inside); l = next_lobe(w.scene, l)) {
+    for (LobeWalk l = first_lobe(w.scene, s.code, s.place); someLane(l.inside);
+         l = next_lobe(w.scene, l, s.place)) {
         Material m = material_of_row(w, s.place, l.lobe.material, l.inside);
         Real weight = sel(l.inside & (m.kind != material_null), l.lobe.weight, R(0.));
         sum = add3(sum, scale3(material_reflectance(m), weight));

@@ -33,17 +33,6 @@ FN Int side_code(ShadeWork w, PathVertex v, Mask below) {
     return code;
 }
 
-/// Where textures are looked up.
-FN TexturePlace texture_place(PathVertex v) {
-    TexturePlace place;
-    place.uv = v.surface.uv;
-    place.primitive = v.path.primitive;
-    place.shape = PRIMITIVE_SHAPE(v.primitive.stored.shape);
-    place.b1 = v.path.b1;
-    place.b2 = v.path.b2;
-    return place;
-}
-
 /// A row of the materials, as textures tell it on the lanes.
 FN Material material_of_row(ShadeWork w, TexturePlace place, Int row, Mask lanes) {
     Material m = load_Material(w.scene.materials, row);
@@ -74,7 +63,7 @@ FN Shading shading_at(ShadeWork w, PathVertex v) {
     if (HAS(blends)) {
         Random4 r = sampler_draw(s.number, bounce_set(w.depth, draw_lobe));
         NOTE(lobe_draw, r);
-        s.lobe = chosen_lobe(w.scene, s.code, uniform01(r.x));
+        s.lobe = chosen_lobe(w.scene, s.code, s.place, uniform01(r.x));
         row = s.lobe.row;
     }
     NOTE(material, sel(s.lanes, row, (Int)(-1)));
@@ -113,10 +102,7 @@ FN Shading turned_to_viewer(ShadeWork w, PathVertex v, Shading s) {
         s.throughput = mul3(s.throughput, gain);
     }
     s.clearance = surface_clearance(v.surface.error, v.surface.ng);
-    Mask round = primitive_kind(v.primitive.whole) == geometry_sphere;
-    if (HAS(shape_cylinder))
-        round = round | (primitive_kind(v.primitive.whole) == geometry_cylinder);
-    s.excluded = sel(round, (Int)(-1), v.path.primitive);
+    s.excluded = excluded_behind(v);
     return s;
 }
 

@@ -68,6 +68,12 @@ FN int continue_paths(ShadeWork w, PathVertex v, Shading s, Scattered onward, St
     path.excluded = s.excluded;
     path.throughput = onward.throughput;
     path.pdf = onward.pdf;
+    if (HAS(clear_shadows) && HAS(emission)) {
+        // As if nothing had been there: light sampled before shines through, too.
+        Mask nothing = s.material.kind == material_null;
+        path.pdf = sel(nothing, v.path.pdf, path.pdf);
+        path.scattered_at = sel3(nothing, v.path.scattered_at, path.origin);
+    }
     path.eta_scale = onward.eta_scale;
     Mask bad = (nought3(path.origin) + nought3(path.direction) != R(0.)) | (path.pdf != path.pdf);
     bad = bad & onward.lanes;

@@ -10,6 +10,12 @@
 #include "device/notes.h"
 #include "device/shade_work.h"
 
+/// Where light that the path sees could have been sampled from.
+FN vec3 lit_from(Path path) {
+    if (HAS(clear_shadows)) return path.scattered_at;
+    return path.origin;
+}
+
 /// Radiance of the sky for lanes that missed everything, weighted against next event estimation;
 /// nothing for the hidden ones.
 FN vec3 sky_emission(ShadeWork w, Path path, Mask missed, Mask hidden) {
@@ -44,10 +50,10 @@ FN vec3 surface_emission(ShadeWork w, PathVertex v) {
     Mask weighted = emits & finiteR(v.path.pdf);
     if (HAS(next_event))
         light = light_picked_with(light, light_pmf(w.scene.light_nodes, w.scene.light_leaves,
-                                                   v.path.origin, row, weighted));
+                                                   lit_from(v.path), row, weighted));
     else
         weighted = emits & !emits;
-    EmitterHit e = emitter_hit(light, v.path.origin, v.path.direction, v.surface.p, weighted);
+    EmitterHit e = emitter_hit(light, lit_from(v.path), v.path.direction, v.surface.p, weighted);
     NOTE(emission, e);
     emitted = sel3(emits, e.radiance, emitted);
     if (someLane(weighted)) {

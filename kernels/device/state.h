@@ -91,6 +91,14 @@ FN int pack_shadow_ray(StatePlace s, ShadowRay r, uint bits) {
     return popcount(bits);
 }
 
+/// What shadow rays bring after all, and whether anything was in their way.
+FN void store_arriving(StatePlace s, vec3 contribution, Mask blocked) {
+    store_state_Real(s, shadow_contribution, contribution.x);
+    store_state_Real(s, shadow_contribution_y, contribution.y);
+    store_state_Real(s, shadow_contribution_z, contribution.z);
+    if (HAS(ray_streams)) store_state_Int(s, shadow_blocked, sel(blocked, (Int)1, (Int)0));
+}
+
 FN void store_hit(StatePlace s, Real t, Real b1, Real b2, Int primitive) {
     store_state_Real(s, path_t, t);
     store_state_Real(s, path_b1, b1);

@@ -192,8 +192,9 @@ FN vec3 texture_color(SceneTables scene, Int row, TexturePlace place, Mask wante
 /// Of linear sRGB, as Mitsuba weighs it.
 FN Real luminance(vec3 c) { return R(0.212671) * c.x + R(0.715160) * c.y + R(0.072169) * c.z; }
 
-/// The number that texture `row` is there: of a colour its luminance. A checkerboard is the other
-/// way about than its colours are, as in Mitsuba 3 (eval_1 and eval of its `checkerboard`).
+/// The number that texture `row` is there: of an image its luminance, of a colour that a
+/// checkerboard has the mean of its channels. A checkerboard is the other way about than its
+/// colours are, as in Mitsuba 3 (eval_1 and eval of its `checkerboard`).
 FN Real texture_number(SceneTables scene, Int row, TexturePlace place, Mask wanted) {
     Texture t = load_wanted_texture(scene, row, wanted);
     vec2 uv = texture_uv(t, place.uv);
@@ -208,7 +209,7 @@ FN Real texture_number(SceneTables scene, Int row, TexturePlace place, Mask want
     if (HAS(texture_checkerboard)) {
         Mask mine = TEXTURE_KIND(t.form) == texture_checkerboard;
         vec3 color = checkerboard_color(t, !checkerboard_first(uv));
-        number = sel(mine, luminance(color), number);
+        number = sel(mine, (color.x + color.y + color.z) / R(3.), number);
     }
     if (HAS(texture_mesh_attribute)) {
         Mask mine = wanted & (TEXTURE_KIND(t.form) == texture_mesh_attribute);

@@ -39,6 +39,7 @@
     X(analytic_uvs)       /* something reads texture coordinates of spheres and disks */            \
     X(textures)           /* some parameter of a material is a texture; of these: */                \
     X(textured_reflectance) X(textured_transmittance) X(textured_index) X(textured_roughness)      \
+    X(textured_blends)    /* and what several materials at once share */                            \
     X(texels_byte) X(texels_half) X(texels_single) /* components of their texels */                 \
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
     X(blends)             /* some surface is several materials at once */                            \
@@ -57,6 +58,7 @@
     X(emission)           /* emitters that a ray can meet */                                       \
     X(scattering)         /* paths go on in directions of the BSDF's choice */                      \
     X(straight_through)   /* some surface lets rays go on as they came, and covers nothing then */  \
+    X(clear_shadows)      /* and sampled light goes through some of them, as through masks */        \
     X(hide_emitters)                                                                               \
     X(russian_roulette)                                                                            \
     X(view_normals) X(view_depth)                                                                  \

@@ -87,9 +87,13 @@
     X(int, distribution)                      /* bit 0: 0 GGX, 1 Beckmann; above: 1 + its energy table, 0: none */
 
 // A surface that is several materials at once has a list of lobes, one behind the other: the share of each, of all before it, and how
-// many are behind it. Shares add up to 1; each has its own material.
+// many are behind it. Shares add up to 1. Each texture that tells of a share is a factor of it (0: none); `below` means nothing then.
 #define LOBE_FIELDS(X)                                                                             \
-    X(int, material) X(float, weight) X(float, below) X(int, behind)
+    X(int, material) X(float, weight) X(float, below) X(int, behind)                               \
+    X(int, factor0) X(int, factor1) X(int, factor2) X(int, factor3)
+#define LOBE_FACTORS 4
+// What texture `row` tells, or what that leaves of 1.
+#define LOBE_FACTOR(row, rest) ((rest) ? -1 - (row) : 1 + (row))
 
 // Of each material the rows of the textures that tell words of its record, where 1 stands; -1: none.
 #define MATERIAL_TEXTURES_FIELDS(X)                                                                \
@@ -150,7 +154,7 @@
 // All that scenes store: the struct of lanes, its fields, how many they are.
 #define RECORDS(X)                                                                                 \
     X(IndexedPrimitive, INDEXED_PRIMITIVE_FIELDS, 7) X(Shape, SHAPE_FIELDS, 8)                     \
-    X(Material, MATERIAL_FIELDS, 16) X(Lobe, LOBE_FIELDS, 4)                                       \
+    X(Material, MATERIAL_FIELDS, 16) X(Lobe, LOBE_FIELDS, 8)                                       \
     X(MaterialTextures, MATERIAL_TEXTURES_FIELDS, 8) X(Texture, TEXTURE_FIELDS, 16)                \
     X(Light, LIGHT_FIELDS, 16) X(LightNode, LIGHT_NODE_FIELDS, 16)
 // And what is made of that.

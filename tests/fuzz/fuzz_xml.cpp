@@ -53,7 +53,8 @@ void check_side(const Scene& scene, int code, std::size_t blends) {
     const auto number = static_cast<std::size_t>(BLEND_NUMBER(code));
     promise(number < blends, "a side is made of a blend that is not there");
     const Blend& blend = scene.blends[number];
-    promise(blend.weight > 0.0 && blend.weight < 1.0, "each of a blend has a share");
+    const double weight = blend.weight.constant;
+    promise(blend.weight.texture || (weight > 0.0 && weight < 1.0), "each of a blend has a share");
     for (const int part : {blend.first, blend.second}) {
         promise(part != no_material, "a blend has nothing that is no material");
         check_side(scene, part, number);

@@ -144,6 +144,18 @@ inline void set_blends(Setup& s, bool on) {
         }
     }
 }
+/// On: what is black beside is told by a texture.
+inline void set_textured_blends(Setup& s, bool on) {
+    if (!on) return;
+    for (Shape& shape : s.scene.shapes) {
+        int front = shape.material_front;
+        if (front < 0 || front == black_material) continue;
+        auto weight = as_number(example_checkerboard());
+        shape.material_front = add_blend(s.scene, {weight, front, 0});
+        if (is_opaque(static_cast<std::size_t>(front) / 2)) continue;
+        shape.material_back = add_blend(s.scene, {weight, shape.material_back, no_material});
+    }
+}
 inline void set_ggx(Setup& s, bool on) {
     if (on) return;
     for (Material& m : s.scene.materials)
@@ -228,6 +240,10 @@ inline void set_straight_through(Setup& s, bool on) {
     if (on) return;
     for (Material& m : s.scene.materials)
         if ((PASSING_MATERIALS >> m.bsdf.index()) & 1) m.bsdf = DiffuseBsdf{Rgb(0.4)};
+}
+inline void set_clear_shadows(Setup& s, bool on) {
+    for (Material& m : s.scene.materials)
+        if (!on && std::holds_alternative<NullBsdf>(m.bsdf)) m.bsdf = DiffuseBsdf{Rgb(0.4)};
 }
 inline void set_hide_emitters(Setup& s, bool on) { s.scene.integrator.hide_emitters = on; }
 inline void set_russian_roulette(Setup& s, bool on) { s.scene.integrator.rr_depth = on ? 1 : 9; }

@@ -3,6 +3,7 @@
 #include "host/flatten/lobe_lists.h"
 #include "host/twin/sample_trace.h"
 #include "tests/support/host_render.h"
+#include "tests/support/sheet.h"
 #include "tests/support/two_of_every.h"
 #include "tests/unit/test_scene_tools.h"
 
@@ -48,32 +49,6 @@ std::map<int, double> shares(const DeviceScene& flat, bool back) {
     }
     if (!lobes.empty()) CHECK(below == Approx(1));
     return result;
-}
-
-/// A sheet across the view of a film of a few pixels.
-Scene sheet(int front, int back, std::vector<Material> materials) {
-    Scene scene;
-    scene.file = "made by the test";
-    scene.materials = std::move(materials);
-    scene.shapes = {shape_of(quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), front, back)};
-    scene.camera.to_world = glm::dmat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, 1, 0, 0),
-                                       glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 0, 5, 1));
-    scene.camera.fov_degrees = 2;
-    scene.film.width = scene.film.crop_width = 8;
-    scene.film.height = scene.film.crop_height = 8;
-    scene.film.pixel_format = PixelFormat::rgba;
-    scene.film.filter.kind = FilterKind::box;
-    scene.sampler.samples_per_pixel = 64;
-    scene.integrator.max_depth = 2;
-    return scene;
-}
-
-double mean(const Image& image, const char* channel) {
-    const auto& values = find_channel(image, channel)->values;
-    double sum = 0;
-    for (float v : values)
-        sum += v;
-    return sum / static_cast<double>(values.size());
 }
 
 /// Each material of the scene, by a blend of it and of a copy of it.

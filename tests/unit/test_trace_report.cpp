@@ -73,7 +73,8 @@ void check_light(const json& v, Told& told) {
                          number(l["geometry_share"]);
     CHECK(near(vector(l["contribution"]), brought, 1e-5));
     if (l["shadow_ray"] == false || l["blocked"] == true) return;
-    told.sum += vector(l["contribution"]);
+    CHECK(near(vector(l["arriving"]), vector(l["contribution"]), 0));
+    told.sum += vector(l["arriving"]);
     told.lit++;
 }
 
@@ -84,7 +85,9 @@ void check_onward(const json& v, const json& next) {
                        number(s["geometry_share"]) * survived;
     CHECK(near(vector(v["throughput_after"]), after, 1e-5));
     CHECK(next["throughput"] == v["throughput_after"]);
-    CHECK(next["direction_pdf"] == s["pdf"]);
+    // No surface at all is as if it had not been met.
+    bool nothing = v["material"]["kind"] == "null";
+    CHECK(next["direction_pdf"] == (nothing ? v["direction_pdf"] : s["pdf"]));
     CHECK(glm::length(vector(next["origin"]) - vector(v["position"])) < 1e-4);
 }
 

@@ -65,7 +65,7 @@ public:
             check_scattered(v, counts);
             eta_scale_ *= v.notes.scattered->eta;
             check_going_on(v, counts);
-            sum_ += v.shadow_ray && !v.blocked ? vector(v.light) : glm::dvec3(0);
+            sum_ += v.shadow_ray && !v.blocked ? vector(v.arriving) : glm::dvec3(0);
         }
         CHECK(near(sum_, vector(trace_.radiance), 1e-5));
     }
@@ -237,7 +237,10 @@ void Checked::check_going_on(const TraceVertex& v, Counts& counts) {
     const TraceVertex& next = (&v)[1];
     CHECK(near(vector(v.throughput_after), after, 1e-5));
     CHECK(near(vector(next.direction), onward, 1e-5));
-    throughput_ = vector(v.throughput_after), pdf_ = n.scattered->pdf;
+    throughput_ = vector(v.throughput_after);
+    // No surface at all is as if it had not been met, for light as well.
+    bool nothing = flat_.features.has(feature_clear_shadows) && record(v).kind == material_null;
+    if (!nothing) pdf_ = n.scattered->pdf;
 }
 
 /// Mitsuba 3: from edge rr_depth on, with min(max(throughput) eta^2, 0.95).

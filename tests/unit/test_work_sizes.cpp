@@ -49,9 +49,10 @@ TEST_CASE("Work sizes: buffers are as long as what lies in them", "[waves]") {
         std::size_t blocks = in_blocks(c.width) * in_blocks(c.height);
         auto segments = static_cast<std::size_t>(s.segments);
         std::size_t entries = segments * s.segment_stride;
-        // A ray is 8 words; paths have throughput, density, index, slot, pixel, sample and a hit
-        // of 3; shadow rays what they bring, their slot and whether they were blocked.
-        CHECK(holds(n.path_state, 8 + 8 + 3, entries));
+        // A ray is 8 words; paths have throughput, density, index, slot, pixel, sample, where they
+        // were scattered and a hit of 3; shadow rays what they bring, their slot and whether they
+        // were blocked.
+        CHECK(holds(n.path_state, 8 + 11 + 3, entries));
         CHECK(holds(n.shadow_state, 8 + 3 + 1 + 1, entries));
         // Light, alpha, weight and the two AOVs.
         std::size_t results = 3 + 1 + 1 + 3 + 1;

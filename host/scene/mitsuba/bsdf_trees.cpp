@@ -69,14 +69,16 @@ SurfaceMaterials read_twosided(Reading& r) {
 }
 
 /// On both sides.
-SurfaceMaterials blended(Reading& r, double weight, const SurfaceMaterials& first,
+SurfaceMaterials blended(Reading& r, const Textured<double>& weight, const SurfaceMaterials& first,
                          const SurfaceMaterials& second) {
     return {add_blend(r.scene, {weight, first.front, second.front}),
             add_blend(r.scene, {weight, first.back, second.back})};
 }
 
-/// A share given as a number, or as a colour: the mean of its channels, as in Mitsuba 3.
-double read_share(Properties& p, std::string_view name) {
+/// A share given as a number, as a texture, or as a colour: the mean of its channels, as in Mitsuba
+/// 3.
+Textured<double> read_share(Properties& p, std::string_view name) {
+    if (p.has_texture(name)) return p.textured_number(name, 0.5);
     const Rgb share = p.color(name, Rgb(0.5), SpectrumUse::reflectance);
     return (share.r + share.g + share.b) / 3.0;
 }
@@ -84,8 +86,9 @@ double read_share(Properties& p, std::string_view name) {
 SurfaceMaterials read_blendbsdf(Reading& r) {
     if (!r.p.has("weight"))
         refuse(r.object.location,
-               r.p.title() + " lacks its parameter \"weight\" (accepted: <float>, <rgb>)");
-    const double weight = read_share(r.p, "weight");
+               r.p.title() +
+                   " lacks its parameter \"weight\" (accepted: <float>, <rgb>, <texture>)");
+    const Textured<double> weight = read_share(r.p, "weight");
     const std::vector<Nested> nested = read_nested(r, 2, 2);
     return blended(r, weight, nested[0].sides, nested[1].sides);
 }
@@ -101,9 +104,9 @@ int add_nothing(Scene& scene) {
 }
 
 SurfaceMaterials read_mask(Reading& r) {
-    const double opacity = read_share(r.p, "opacity");
+    const Textured<double> opacity = read_share(r.p, "opacity");
     const SurfaceMaterials nested = read_nested(r, 1, 1)[0].sides;
-    if (opacity == 1.0) return nested;
+    if (!opacity.texture && opacity.constant == 1.0) return nested;
     const int nothing = add_nothing(r.scene);
     return blended(r, opacity, {nothing, nothing}, nested);
 }

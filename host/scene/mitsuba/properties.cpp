@@ -43,8 +43,12 @@ const Parameter* Properties::find(std::string_view name) const {
 
 bool Properties::has(std::string_view name) {
     if (!contains(known_, name)) known_.emplace_back(name);
-    return find(name) || std::any_of(object_.children.begin(), object_.children.end(),
-                                     [&](const Child& child) { return is_texture(child, name); });
+    return find(name) || has_texture(name);
+}
+
+bool Properties::has_texture(std::string_view name) const {
+    return std::any_of(object_.children.begin(), object_.children.end(),
+                       [&](const Child& child) { return is_texture(child, name); });
 }
 
 bool Properties::is_texture(const Child& child, std::string_view name) const {

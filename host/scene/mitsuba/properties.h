@@ -25,6 +25,7 @@ public:
 
     /// As a value or as a texture.
     bool has(std::string_view name);
+    bool has_texture(std::string_view name) const;
     /// Names that the plugin has and the reader may not come to.
     void knows(std::initializer_list<std::string_view> names);
     /// The line of a parameter that is there, else of the plugin.
