@@ -54,6 +54,7 @@ inline std::string companions(std::string_view plugin, std::string_view name) {
     if (plugin == "mask") return white_bsdf;
     if (plugin == "blendbsdf") return fmt::format("{0}{0}", white_bsdf);
     if (plugin == "mesh_attribute") return "<string name='name' value='vertex_color'/>";
+    if (plugin == "envmap") return "<string name='filename' value='one.pfm'/>"; // of 1
     if (plugin == "aov") return "<string name='aovs' value='d:depth'/>";
     if (plugin == "moment") return "<integrator type='direct'/>";
     if (plugin == "thinlens" && name != "aperture_radius")

@@ -7,6 +7,7 @@
 #include "test_scene_tools.h"
 #include "tests/support/domain_scenes.h"
 #include "tests/support/domain_values.h"
+#include "tests/support/image_files.h"
 
 #include <algorithm>
 #include <limits>
@@ -22,9 +23,16 @@ struct Outcome {
     Scene scene;
 };
 
+/// Where scenes stand, beside an image of 1.
+const SceneFolder& folder() {
+    static const SceneFolder kept;
+    static const std::string image = kept.write("one.pfm", pfm_of(2, 2, {1, 1, 1, 1}, 1));
+    return kept;
+}
+
 Outcome outcome_of(const std::string& text) {
     try {
-        return {"", load_scene(SceneFolder().write("scene.xml", text))};
+        return {"", load_scene(folder().write("scene.xml", text))};
     } catch (const InputError& error) {
         return {error.what(), {}};
     }
@@ -43,6 +51,7 @@ bool is_mesh_file(std::string_view plugin) {
 /// ball sends on of a sky of 1.
 std::optional<double> expected_mean(const NumberParameter& p, std::string_view plugin, double v) {
     if (p.name == "radiance") return plugin == "area" ? v : 0.5 * v; // of the sky, a ball of 0.5
+    if (plugin == "envmap" && p.name == "scale") return 0.5 * v;
     if (p.name == "reflectance") return v;
     if (plugin == "d65" || plugin == "srgb" || plugin == "uniform") return 0.5 * v;
     // Wider filters than that leave pixels of so small a film without samples.
