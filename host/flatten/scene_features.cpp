@@ -50,6 +50,14 @@ void decide_materials(const DeviceScene& records, FeatureDecisions& out) {
                fmt::format("{} of {} materials", count_anisotropic(records), materials.size()));
 }
 
+/// After anisotropy and textures.
+void decide_tangents(const DeviceScene& records, FeatureDecisions& out) {
+    Count tilted = count_of(records.material_textures, "materials have tilted normals",
+                            [](const MaterialTexturesRecord& t) { return t.tilt >= 0; });
+    out.decide(feature_tangents, out.has(feature_anisotropy) || tilted.any,
+               fmt::format("{}, {} anisotropic", tilted.text, count_anisotropic(records)));
+}
+
 void decide_analytic_uvs(const Scene& scene, const DeviceScene& records,
                          const std::vector<ShapeRecord>& shapes, FeatureDecisions& out) {
     Count analytic = count_of(shapes, "shapes have no vertices", [](const ShapeRecord& s) {
@@ -256,6 +264,7 @@ FeatureDecisions scene_features(const Scene& scene, const DeviceScene& records) 
     FeatureDecisions out;
     decide_materials(records, out);
     decide_texture_features(records, out);
+    decide_tangents(records, out);
     decide_surfaces(scene, records, out);
     decide_lights(records, out);
     decide_camera_and_sampler(scene, records, out);

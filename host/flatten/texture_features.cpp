@@ -34,6 +34,12 @@ void decide_texture_features(const DeviceScene& records, FeatureDecisions& out) 
     decide(feature_textured_roughness, has_row(&Rows::alpha_u, &Rows::alpha_v));
     decide_by_count(out, feature_textured_blends, records.lobes, "lobes",
                     [](const LobeRecord& lobe) { return lobe.factor0 != 0; });
+    auto tilted_by = [](bool normals) {
+        return
+            [=](const Rows& t) { return t.tilt >= 0 && ((t.tilt & TILT_NORMALS) != 0) == normals; };
+    };
+    decide(feature_normal_maps, tilted_by(true));
+    decide(feature_bump_maps, tilted_by(false));
     constexpr std::array components{feature_texels_byte, feature_texels_half,
                                     feature_texels_single};
     decide_kinds(out, components, records.textures, "textures", [](const TextureRecord& t) {

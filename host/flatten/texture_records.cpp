@@ -69,6 +69,14 @@ TextureRow row_of(Rows& rows) {
     return [&rows](const TextureUse& use) { return rows(use); };
 }
 
+/// After the words of its parameters: the texture that tilts its normals.
+void set_tilt(MaterialTexturesRecord& t, const Tilt& tilt, const SceneFrame& frame, Rows& rows) {
+    if (!tilt) return;
+    t.tilt = rows(tilt.texture) << TILT_SHIFT | (tilt.of_normals ? TILT_NORMALS : 0) |
+             (tilt.flips ? TILT_FLIPS : 0) | (tilt.shadows ? TILT_SHADOWS : 0);
+    t.tilt_scale = static_cast<float>(tilt.of_normals ? tilt.scale : tilt.scale * frame.scale);
+}
+
 bool looks_at_lights(const Integrator& integrator) {
     return integrator.kind == IntegratorKind::path || integrator.kind == IntegratorKind::direct;
 }
@@ -262,8 +270,10 @@ int sky_row(const Scene& scene, Rows& rows) {
 
 std::vector<std::shared_ptr<const Texture>> textures_of(const Scene& scene) {
     Rows rows;
-    for (const Material& material : scene.materials)
-        material_textures(material.bsdf, row_of(rows));
+    for (const Material& material : scene.materials) {
+        MaterialTexturesRecord t = material_textures(material.bsdf, row_of(rows));
+        set_tilt(t, material.tilt, {}, rows);
+    }
     for (const Blend& blend : scene.blends)
         rows(blend.weight.texture);
     static_cast<void>(sky_row(scene, rows));
@@ -275,8 +285,10 @@ void add_textures(const Scene& scene, DeviceScene& out) {
     out.blend_textures.assign(scene.blends.size(), -1);
     if (!looks_at_materials(scene.integrator)) return;
     Rows rows;
-    for (std::size_t i = 0; i < scene.materials.size(); i++)
+    for (std::size_t i = 0; i < scene.materials.size(); i++) {
         out.material_textures[i] = material_textures(scene.materials[i].bsdf, row_of(rows));
+        set_tilt(out.material_textures[i], scene.materials[i].tilt, out.frame, rows);
+    }
     for (std::size_t i = 0; i < scene.blends.size(); i++)
         out.blend_textures[i] = rows(scene.blends[i].weight.texture);
     const int sky = looks_at_lights(scene.integrator) ? sky_row(scene, rows) : -1;

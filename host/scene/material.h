@@ -44,10 +44,23 @@ bool has_thin_base(const Kind& b) {
     return false;
 }
 
+/// What tilts a surface's normals for one of its materials: an image of heights over it, in the
+/// scene's units, or one of normals in its frame, x and y and z as 0 to 1 for -1 to 1.
+struct Tilt {
+    TextureUse texture; ///< null: nothing
+    bool of_normals = false;
+    double scale = 1.0;  ///< of heights; of normals' x and y 1, or -1 for what is seen from below
+    bool flips = true;   ///< normals that would be turned away from the viewer
+    bool shadows = true; ///< tilted facets shadow each other
+
+    explicit operator bool() const { return bool(texture); }
+};
+
 struct Material {
     std::string id; ///< the author's id, or a made-up one ("bsdf 3")
     SourceLocation location;
     Bsdf bsdf;
+    Tilt tilt{};
 };
 
 // What a side of a surface is made of: the number of a Material; or blend_code of that of a Blend;

@@ -44,9 +44,9 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
     NOTE(light, d.sample);
     vec3 wi = to_local(s.frame, d.sample.wi);
     wi.z = wi.z * s.side;
-    BsdfEval f = eval_material(w.scene, s.material, s.wo, wi, s.lanes);
+    BsdfEval f = eval_material(w.scene, s.seen, wi, s.lanes);
     if (HAS(blends)) {
-        f.f = mul3(f.f, lobe_scale(w, s, s.material, s.wo, d.sample.wi, s.lanes));
+        f.f = mul3(f.f, lobe_scale(w, s, s.seen, d.sample.wi, s.lanes));
         f = eval_all_lobes(w, s, f, d.sample.wi, s.lanes);
     }
     NOTE(towards_light, f);

@@ -8,12 +8,13 @@
 
 #include "device/shade_material.h"
 
-/// What a lobe of material m is scaled by: its energy, and the share of light from or to wi (world)
-/// that counts there.
-FN vec3 lobe_scale(ShadeWork w, Shading s, Material m, vec3 wo, vec3 wi, Mask lanes) {
+/// What a lobe is scaled by: its energy, and the share of light from or to wi (world) that counts
+/// there.
+FN vec3 lobe_scale(ShadeWork w, Shading s, SeenMaterial lobe, vec3 wi, Mask lanes) {
     vec3 scale = splat3(R(1.));
-    if (HAS(energy_compensation)) scale = compensate_energy(w.scene.energy_tables, m, wo, lanes);
-    if (HAS(consistent_normals)) scale = scale3(scale, counted_share(s.sides, m, wi));
+    if (HAS(energy_compensation))
+        scale = compensate_energy(w.scene.energy_tables, lobe.material, lobe.wo, lanes);
+    if (HAS(consistent_normals)) scale = scale3(scale, counted_share(s.sides, lobe.material, wi));
     return scale;
 }
 
@@ -31,10 +32,10 @@ FN BsdfEval eval_all_lobes(ShadeWork w, Shading s, BsdfEval chosen, vec3 wi, Mas
         Material m = material_of_row(w, s.place, l.lobe.material, other);
         Real side = side_to_viewer(m, s.wo.z * s.side);
         vec3 wo = v3(s.wo.x, s.wo.y, s.wo.z * s.side * side);
-        if (HAS(bsdf_roughplastic)) m = coat_seen_from(w.scene.energy_tables, m, wo, other);
+        SeenMaterial lobe = see_material(w.scene, m, s.place, l.lobe.material, wo, other);
         vec3 wi_above = v3(in_frame.x, in_frame.y, in_frame.z * side);
-        BsdfEval e = eval_material(w.scene, m, wo, wi_above, other);
-        e.f = mul3(e.f, lobe_scale(w, s, m, wo, wi, other));
+        BsdfEval e = eval_material(w.scene, lobe, wi_above, other);
+        e.f = mul3(e.f, lobe_scale(w, s, lobe, wi, other));
         sum.f = sel3(other, add3(sum.f, scale3(e.f, l.lobe.weight)), sum.f);
         sum.pdf = sel(other, sum.pdf + e.pdf * l.lobe.weight, sum.pdf);
     }
@@ -45,7 +46,7 @@ FN BsdfEval eval_all_lobes(ShadeWork w, Shading s, BsdfEval chosen, vec3 wi, Mas
 /// of its lobe has no part in others. wi: b.wi in the world.
 FN BsdfSample sample_of_all_lobes(ShadeWork w, Shading s, BsdfSample b, vec3 wi) {
     Mask spread = (b.pdf > R(0.)) & finiteR(b.pdf);
-    vec3 alone = mul3(b.weight, lobe_scale(w, s, s.material, s.wo, wi, s.lanes));
+    vec3 alone = mul3(b.weight, lobe_scale(w, s, s.seen, wi, s.lanes));
     BsdfEval chosen;
     chosen.pdf = sel(spread, b.pdf, R(0.));
     chosen.f = scale3(alone, chosen.pdf);

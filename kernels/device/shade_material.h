@@ -2,24 +2,25 @@
 #ifndef PARHELION_SHADE_MATERIAL_H
 #define PARHELION_SHADE_MATERIAL_H
 
-#include "device/coated_material.h"
 #include "device/coverage.h"
 #include "device/lobes.h"
 #include "device/notes.h"
+#include "device/seen_material.h"
 #include "device/shade_work.h"
-#include "device/texture.h"
 
 typedef struct {
     Mask lanes;    // on a side that has a material
     Mask may_pass; // of those, where a ray may go straight through
     TexturePlace place;
     Int code;          // what they are made of; of lanes without: the front, for AOVs
-    Material material; // that, or the lobe of it that a direction is drawn from
+    Int row;           // of that, or of the lobe of it that a direction is drawn from
+    Material material; // which is this
     ChosenLobe lobe;
     ShadingSide sides;
     ShadingFrame frame;
-    vec3 wo;   // in the frame
-    Real side; // -1 where the surface was turned over to be seen from above
+    vec3 wo;           // in the frame
+    Real side;         // -1 where the surface was turned over to be seen from above
+    SeenMaterial seen; // from there
     // What starts here: a light and a direction.
     vec3 throughput, clearance;
     Int excluded;
@@ -56,6 +57,10 @@ FN Shading shading_at(ShadeWork w, PathVertex v) {
     NOTE(surface, shaded);
     s.wo = to_local(s.frame, neg3(v.path.direction));
     if (HAS(textures)) s.place = texture_place(v);
+    if (HAS(bump_maps)) {
+        s.place.du = to_local(s.frame, v.surface.tangent);
+        s.place.dv = to_local(s.frame, v.surface.tangent_v);
+    }
     Int front = v.primitive.stored.material, code = side_code(w, v, s.wo.z < R(0.));
     s.lanes = v.hit & (code != -1);
     s.code = sel(code != -1, code, front);
@@ -67,7 +72,8 @@ FN Shading shading_at(ShadeWork w, PathVertex v) {
         row = s.lobe.row;
     }
     NOTE(material, sel(s.lanes, row, (Int)(-1)));
-    s.material = material_of_row(w, s.place, sel(row >= 0, row, (Int)0), v.hit);
+    s.row = sel(row >= 0, row, (Int)0);
+    s.material = material_of_row(w, s.place, s.row, v.hit);
     return s;
 }
 
@@ -92,12 +98,10 @@ FN Real side_to_viewer(Material m, Real z) {
 FN Shading turned_to_viewer(ShadeWork w, PathVertex v, Shading s) {
     s.side = side_to_viewer(s.material, s.wo.z);
     if (HAS(back_materials)) s.wo.z = s.wo.z * s.side;
-    // Without light there are no tables.
-    if (HAS(bsdf_roughplastic) && (HAS(next_event) || HAS(scattering)))
-        s.material = coat_seen_from(w.scene.energy_tables, s.material, s.wo, s.lanes);
+    s.seen = see_material(w.scene, s.material, s.place, s.row, s.wo, s.lanes);
     s.throughput = v.path.throughput;
     if (!HAS(blends) && HAS(energy_compensation)) { // of blends: shade_lobes.h
-        vec3 gain = compensate_energy(w.scene.energy_tables, s.material, s.wo, s.lanes);
+        vec3 gain = compensate_energy(w.scene.energy_tables, s.seen.material, s.seen.wo, s.lanes);
         NOTE(energy_gain, gain);
         s.throughput = mul3(s.throughput, gain);
     }

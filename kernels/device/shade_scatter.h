@@ -30,8 +30,7 @@ FN Mask pass_straight(ShadeWork w, PathVertex v, Shading s, vec3 wi, Mask lanes)
 FN Scattered scattered(ShadeWork w, PathVertex v, Shading s) {
     Random4 r = sampler_draw(s.number, bounce_set(w.depth, draw_bsdf));
     NOTE(bsdf_draw, r);
-    BsdfSample b =
-        sample_material(w.scene, s.material, s.wo, uniform2(r.x, r.y), uniform01(r.z), s.lanes);
+    BsdfSample b = sample_material(w.scene, s.seen, uniform2(r.x, r.y), uniform01(r.z), s.lanes);
     if (HAS(blends)) b = sample_of_all_lobes(w, s, b, to_world_from(s.frame, b.wi, s.side));
     NOTE(scattered, b);
     Scattered out;

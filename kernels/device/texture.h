@@ -80,6 +80,9 @@ FN vec3 texel_at(SceneTables scene, Image i, Int x, Int y) {
     return sel3((i.t.form & TEXTURE_GREY) != 0, splat3(color.x), color);
 }
 
+/// Of linear sRGB, as Mitsuba weighs it.
+FN Real luminance(vec3 c) { return R(0.212671) * c.x + R(0.715160) * c.y + R(0.072169) * c.z; }
+
 /// One axis of an image: the two texels about a place, and how far it is from the first's centre to
 /// the second's.
 typedef struct {
@@ -115,6 +118,34 @@ FN TexelPair texel_pair(Real x, Int size, Int form) {
 /// a where along is 0, and wherever both are the same.
 FN vec3 between3(vec3 a, vec3 b, Real along) { return add3(a, scale3(sub3(b, a), along)); }
 
+/// Its number: of a colour its luminance.
+FN Real texel_number(SceneTables scene, Image i, Int x, Int y) {
+    vec3 color = texel_at(scene, i, x, y);
+    return sel((i.t.form & TEXTURE_GREY) != 0, color.x, luminance(color));
+}
+
+/// How a coordinate of an image moves what texel_pair makes of it: not where it is not
+/// interpolated.
+FN Real texels_along(Real x, Int size, Int form) {
+    Real turn = x - R(2.) * floorR(x * R(.5));
+    Mask back = (TEXTURE_WRAP(form) == 1) & (turn > R(1.));
+    Real along = toReal(size) * sel(back, R(-1.), R(1.));
+    return sel((form & TEXTURE_NEAREST) != 0, R(0.), along);
+}
+
+/// Derivatives of an image's number along u and v of the surface.
+FN vec2 bitmap_gradient(SceneTables scene, Texture t, vec2 uv, Mask wanted) {
+    Image i = image_of(t, wanted);
+    TexelPair x = texel_pair(uv.x, t.width, t.form), y = texel_pair(uv.y, t.height, t.form);
+    Real a = texel_number(scene, i, x.low, y.low), b = texel_number(scene, i, x.high, y.low);
+    Real c = texel_number(scene, i, x.low, y.high), d = texel_number(scene, i, x.high, y.high);
+    Real right = (b - a) + y.along * ((d - c) - (b - a));
+    Real down = (c - a) + x.along * ((d - b) - (c - a));
+    right = right * texels_along(uv.x, t.width, t.form);
+    down = down * texels_along(uv.y, t.height, t.form);
+    return v2(t.ux * right + t.vx * down, t.uy * right + t.vy * down);
+}
+
 FN vec3 bitmap_color(SceneTables scene, Texture t, vec2 uv, Mask wanted) {
     Image i = image_of(t, wanted);
     TexelPair x = texel_pair(uv.x, t.width, t.form), y = texel_pair(uv.y, t.height, t.form);
@@ -140,6 +171,7 @@ typedef struct {
     vec2 uv;
     Int primitive, shape; // their numbers
     Real b1, b2;          // barycentrics of a triangle
+    vec3 du, dv;          // in the surface's frame, where heights tilt normals
 } TexturePlace;
 
 /// Three floats from each lane's word on.
@@ -188,9 +220,6 @@ FN vec3 texture_color(SceneTables scene, Int row, TexturePlace place, Mask wante
     }
     return color;
 }
-
-/// Of linear sRGB, as Mitsuba weighs it.
-FN Real luminance(vec3 c) { return R(0.212671) * c.x + R(0.715160) * c.y + R(0.072169) * c.z; }
 
 /// The number that texture `row` is there: of an image its luminance, of a colour that a
 /// checkerboard has the mean of its channels. A checkerboard is the other way about than its

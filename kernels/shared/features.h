@@ -44,6 +44,8 @@
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
     X(blends)             /* some surface is several materials at once */                            \
     X(ggx) X(beckmann) X(anisotropy)                                                               \
+    X(normal_maps) X(bump_maps) /* some material's normals are tilted, by colours or by heights */ \
+    X(tangents)           /* frames lie along texture coordinates: for one of the last three */    \
     X(energy_compensation) /* some rough lobe makes up for what it scatters more than once */      \
     X(faure)              /* samples of a pixel in a pattern; without: independent */               \
     X(replicates)         /* that is several, each scrambled by itself */                           \

@@ -20,6 +20,7 @@
 #include "shared/shading_normal.h"
 #include "shared/solid_angle.h"
 #include "shared/spawn_ray.h"
+#include "shared/tilt.h"
 #include "shared/warp.h"
 
 #include "shared/microfacet.h"

@@ -3,10 +3,11 @@
 
 typedef struct {
     vec3 p;
-    vec3 error;   // absolute rounding error bound of p, per coordinate
-    vec3 ng;      // unit geometric normal
-    vec3 ns;      // unit shading normal
-    vec3 tangent; // derivative of p along u, not normalised; only for anisotropic materials
+    vec3 error;     // absolute rounding error bound of p, per coordinate
+    vec3 ng;        // unit geometric normal
+    vec3 ns;        // unit shading normal
+    vec3 tangent;   // derivative of p along u, only where HAS(tangents); of some length
+    vec3 tangent_v; // that along v, only where HAS(bump_maps); then either has its true length
     vec2 uv;
 } SurfaceInteraction;
 
@@ -36,8 +37,10 @@ FN SurfaceInteraction surface_triangle(Primitive p, Real b1, Real b2) {
     s.ns = s.ng;
     s.uv = v2(b1, b2);
     s.tangent = splat3(R(0.));
-    if (HAS(anisotropy))
-        s.tangent = sub3(b, a); // as in Mitsuba 3, where there are no texture coordinates
+    s.tangent_v = splat3(R(0.));
+    // As in Mitsuba 3, where there are no texture coordinates.
+    if (HAS(tangents)) s.tangent = sub3(b, a);
+    if (HAS(bump_maps)) s.tangent_v = sub3(c, a);
     return s;
 }
 
@@ -63,14 +66,20 @@ FN SurfaceInteraction surface_vertex_attributes(SurfaceInteraction s, Primitive 
         vec2 uv = v2(v.u0 * b0 + v.u1 * b1 + v.u2 * b2, v.v0 * b0 + v.v1 * b1 + v.v2 * b2);
         s.uv.x = sel(usable, uv.x, s.uv.x);
         s.uv.y = sel(usable, uv.y, s.uv.y);
-        if (HAS(anisotropy)) {
+        if (HAS(tangents)) {
             Real du1 = v.u1 - v.u0, dv1 = v.v1 - v.v0, du2 = v.u2 - v.u0, dv2 = v.v2 - v.v0;
             Real determinant = difference_of_products(du1, dv2, dv1, du2);
             vec3 e1 = sub3(primitive_b(p), primitive_a(p)),
                  e2 = sub3(primitive_c(p), primitive_a(p));
             vec3 along_u = sub3(scale3(e1, dv2), scale3(e2, dv1));
             Mask regular = usable & (determinant != R(0.));
-            s.tangent = sel3(regular, scale3(along_u, copysignR(R(1.), determinant)), s.tangent);
+            Real scale = copysignR(R(1.), determinant);
+            if (HAS(bump_maps)) {
+                scale = R(1.) / sel(regular, determinant, R(1.));
+                vec3 along_v = sub3(scale3(e2, du1), scale3(e1, du2));
+                s.tangent_v = sel3(regular, scale3(along_v, scale), s.tangent_v);
+            }
+            s.tangent = sel3(regular, scale3(along_u, scale), s.tangent);
         }
     }
     return s;
@@ -96,7 +105,17 @@ FN SurfaceInteraction surface_sphere(Primitive p, vec3 on_ray) {
         s.uv = v2(sel(phi < R(0.), phi + 1.f, phi),
                   acosR(maxR(R(-1.), minR(R(1.), in_axes.z))) * R(INV_PI));
     }
-    if (HAS(anisotropy)) s.tangent = sub3(scale3(axis_y, in_axes.x), scale3(axis_x, in_axes.y));
+    if (HAS(tangents)) s.tangent = sub3(scale3(axis_y, in_axes.x), scale3(axis_x, in_axes.y));
+    s.tangent_v = splat3(R(0.));
+    if (HAS(bump_maps)) {
+        s.tangent = scale3(s.tangent, R(TWO_PI) * p.extra);
+        Real across = sqrtR(in_axes.x * in_axes.x + in_axes.y * in_axes.y);
+        Mask leans = across > R(0.);
+        Real share = in_axes.z / sel(leans, across, R(1.));
+        vec3 down = sub3(add3(scale3(axis_x, in_axes.x * share), scale3(axis_y, in_axes.y * share)),
+                         scale3(axis_z, across));
+        s.tangent_v = sel3(leans, scale3(down, R(PI) * p.extra), s.tangent_v);
+    }
     return s;
 }
 
@@ -123,7 +142,12 @@ FN SurfaceInteraction surface_cylinder(Primitive p, vec3 on_ray) {
         Real phi = atan2R(y, dot3(outward, side)) * R(INV_TWO_PI);
         s.uv = v2(sel(phi < R(0.), phi + 1.f, phi), along);
     }
-    if (HAS(anisotropy)) s.tangent = scale3(cross3(unit, outward), sign);
+    if (HAS(tangents)) s.tangent = scale3(cross3(unit, outward), sign);
+    s.tangent_v = splat3(R(0.));
+    if (HAS(bump_maps)) {
+        s.tangent = scale3(s.tangent, R(TWO_PI) * radius);
+        s.tangent_v = axis;
+    }
     return s;
 }
 
@@ -144,10 +168,14 @@ FN SurfaceInteraction surface_disk(Primitive p, Real b1, Real b2) {
         Real phi = atan2R(b2, b1) * R(INV_TWO_PI);
         s.uv = v2(r, sel(phi < R(0.), phi + 1.f, phi));
     }
-    if (HAS(anisotropy)) {
+    if (HAS(tangents)) {
         Mask centred = r == R(0.);
         s.tangent = sel3(centred, edge_u, add3(scale3(edge_u, b1), scale3(edge_v, b2)));
+        if (HAS(bump_maps)) s.tangent = scale3(s.tangent, R(1.) / sel(centred, R(1.), r));
     }
+    s.tangent_v = splat3(R(0.));
+    if (HAS(bump_maps))
+        s.tangent_v = scale3(sub3(scale3(edge_v, b1), scale3(edge_u, b2)), R(TWO_PI));
     return s;
 }
 
@@ -158,12 +186,13 @@ FN SurfaceInteraction sel_surface(Mask m, SurfaceInteraction a, SurfaceInteracti
     s.ng = sel3(m, a.ng, b.ng);
     s.ns = sel3(m, a.ns, b.ns);
     s.tangent = sel3(m, a.tangent, b.tangent);
+    s.tangent_v = sel3(m, a.tangent_v, b.tangent_v);
     s.uv = v2(sel(m, a.uv.x, b.uv.x), sel(m, a.uv.y, b.uv.y));
     return s;
 }
 
 /// The frame BSDFs are evaluated in.
 FN ShadingFrame surface_frame(SurfaceInteraction s) {
-    if (HAS(anisotropy)) return frame_from_tangent(s.ns, s.tangent);
+    if (HAS(tangents)) return frame_from_tangent(s.ns, s.tangent);
     return frame_from_normal(s.ns);
 }

@@ -100,7 +100,13 @@
     X(int, reflectance) X(int, transmittance)                                                      \
     X(int, eta) X(int, k)                     /* of a conductor */                                 \
     X(int, alpha_u) X(int, alpha_v)                                                                \
-    X(int, unused0) X(int, unused1)
+    X(int, tilt)                              /* row << TILT_SHIFT | TILT_*, of what tilts its normals */ \
+    X(float, tilt_scale)                      /* of heights, in the device's units; of normals 1, or -1 for what is below */
+
+#define TILT_NORMALS 1 // its colours are normals, not heights
+#define TILT_FLIPS 2   // away from whoever looks: turned about the surface's normal
+#define TILT_SHADOWS 4 // tilted facets shadow each other
+#define TILT_SHIFT 3
 
 // Coordinates are taken to (ux u + uy v + ut, vx u + vy v + vt). An image: its size in texels, the word of `texels` that the first
 // begins with, their decoding. A checkerboard: its colours. An attribute of meshes: the word of `texels` where a word for each shape

@@ -175,6 +175,23 @@ inline void set_anisotropy(Setup& s, bool on) {
             if constexpr (requires { r.alpha_u; }) r.alpha_v = r.alpha_u;
         });
 }
+inline void set_tilts(Setup& s, bool of_normals) {
+    for (std::size_t i = 0; i < s.scene.materials.size(); i++)
+        if (i != black_material) {
+            Tilt tilt;
+            tilt.texture = textured(example_texels(TexelComponent::byte)).texture;
+            tilt.of_normals = of_normals;
+            tilt.scale = of_normals ? 1.0 : 0.05;
+            s.scene.materials[i].tilt = tilt;
+        }
+}
+inline void set_normal_maps(Setup& s, bool on) {
+    if (on) set_tilts(s, true);
+}
+inline void set_bump_maps(Setup& s, bool on) {
+    if (on) set_tilts(s, false);
+}
+inline void set_tangents(Setup& s, bool on) { set_anisotropy(s, on); }
 inline void set_energy_compensation(Setup& s, bool on) { set_energy_compensation(s.scene, on); }
 inline void set_faure(Setup& s, bool on) {
     s.scene.sampler.pattern = on ? SamplePattern::faure : SamplePattern::independent;

@@ -43,8 +43,8 @@ bool mentions(std::string_view text, std::string_view part) {
 }
 
 /// Needs files that this test has none of: only what is refused before they are read.
-bool is_mesh_file(std::string_view plugin) {
-    return plugin == "obj" || plugin == "ply" || plugin == "serialized";
+bool is_of_files(std::string_view plugin) {
+    return plugin == "obj" || plugin == "ply" || plugin == "serialized" || plugin == "bumpmap";
 }
 
 /// What every pixel's mean is, where that is known: the light's own radiance, or the share that the
@@ -109,7 +109,7 @@ void check_number(const NumberParameter& p, std::string_view plugin, const Tried
     INFO(p.tag << " " << plugin << ", " << p.name << " = " << number.text << " " << beside);
     Outcome outcome = outcome_of(domain_scene(p, plugin, number.text, beside));
     std::optional<double> taken = placed(p.domain, number.value);
-    CHECK((!mentions(outcome.refusal, "\n") || is_mesh_file(plugin)));
+    CHECK((!mentions(outcome.refusal, "\n") || is_of_files(plugin)));
     if (!taken) {
         CHECK(mentions(outcome.refusal, "scene.xml:1"));
         if (number.text.size() < 10 && std::isfinite(number.value))
@@ -119,7 +119,7 @@ void check_number(const NumberParameter& p, std::string_view plugin, const Tried
     bool noted = std::any_of(outcome.scene.notes.begin(), outcome.scene.notes.end(),
                              [](const std::string& note) { return mentions(note, "taken as"); });
     if (!outcome.refusal.empty()) {
-        CHECK((!p.also.empty() || is_mesh_file(plugin)));
+        CHECK((!p.also.empty() || is_of_files(plugin)));
         return;
     }
     CHECK(noted == (*taken != number.value));

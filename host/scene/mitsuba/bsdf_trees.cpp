@@ -111,7 +111,70 @@ SurfaceMaterials read_mask(Reading& r) {
     return blended(r, opacity, {nothing, nothing}, nested);
 }
 
-#define NESTING_BSDFS(X) X(twosided) X(mask) X(blendbsdf)
+/// What is made of `code`, tilted: the materials themselves, and copies of those that stand on both
+/// sides where those differ. What is opaque is turned over to be seen from below, and its tilt too.
+int tilted(Scene& scene, int code, const Tilt& tilt, bool below) {
+    if (code == no_material) return code;
+    if (IS_BLEND(code)) {
+        Blend b = scene.blends[static_cast<std::size_t>(BLEND_NUMBER(code))];
+        const int first = tilted(scene, b.first, tilt, below),
+                  second = tilted(scene, b.second, tilt, below);
+        if (first == b.first && second == b.second) return code;
+        return add_blend(scene, {b.weight, first, second});
+    }
+    Material& m = scene.materials[static_cast<std::size_t>(code)];
+    if (std::holds_alternative<NullBsdf>(m.bsdf)) return code; // has no normal
+    Tilt own = tilt;
+    if (below && ((OPAQUE_MATERIALS >> m.bsdf.index()) & 1)) own.scale = -own.scale;
+    if (m.tilt && m.tilt.scale == own.scale) return code;
+    if (m.tilt) {
+        Material other = m;
+        other.tilt = own;
+        return add_material(scene, other);
+    }
+    m.tilt = own;
+    return code;
+}
+
+/// What the plugin holds, tilted.
+SurfaceMaterials read_tilted(Reading& r, const Tilt& tilt) {
+    const std::size_t before = r.scene.materials.size();
+    const Nested nested = read_nested(r, 1, 1)[0];
+    for (std::size_t i = before; i < r.scene.materials.size(); i++)
+        if (r.scene.materials[i].tilt)
+            refuse(nested.child.location,
+                   r.p.title() + " cannot hold a bsdf that is tilted by another texture already");
+    if (tilt.scale == 0.0) return nested.sides;
+    return {tilted(r.scene, nested.sides.front, tilt, false),
+            tilted(r.scene, nested.sides.back, tilt, true)};
+}
+
+Tilt read_tilt(Reading& r) {
+    Tilt tilt;
+    tilt.texture = r.p.only_bitmap();
+    tilt.flips = r.p.boolean("flip_invalid_normals", true);
+    tilt.shadows = r.p.boolean("use_shadowing_function", true);
+    return tilt;
+}
+
+SurfaceMaterials read_bumpmap(Reading& r) {
+    Tilt tilt = read_tilt(r);
+    tilt.scale = r.p.number("scale", 1.0);
+    return read_tilted(r, tilt);
+}
+
+SurfaceMaterials read_normalmap(Reading& r) {
+    Tilt tilt = read_tilt(r);
+    tilt.of_normals = true;
+    const auto& bitmap = std::get<BitmapTexture>(tilt.texture.texture->kind);
+    if (bitmap.source.layout.channels < 3)
+        refuse(tilt.texture.location,
+               fmt::format("{}: {} has one component a texel (accepted: an image of three)",
+                           r.p.title(), bitmap.source.name));
+    return read_tilted(r, tilt);
+}
+
+#define NESTING_BSDFS(X) X(twosided) X(mask) X(blendbsdf) X(bumpmap) X(normalmap)
 
 SurfaceMaterials read_surface(Reading&& r) {
     using BsdfReader = SurfaceMaterials (*)(Reading&);

@@ -109,6 +109,7 @@ std::vector<NumberParameter> material_parameters() {
 const NumberParameter other_parameters[] = {
     {"bsdf", "mask", "opacity", color, share},
     {"bsdf", "blendbsdf", "weight", color, share},
+    {"bsdf", "bumpmap", "scale", real, between(-1e20, 1e20)},
 
     {"emitter", "area constant", "radiance", color, radiometric, power},
     {"emitter", "point spot", "intensity", color, radiometric, power},

@@ -268,6 +268,20 @@ Textured<double> Properties::textured_number(std::string_view name,
     return Textured<double>(texture_use(name, *texture));
 }
 
+TextureUse Properties::only_bitmap() {
+    const std::vector<const Child*> textures = children("texture");
+    if (textures.size() != 1)
+        refuse_at(location(),
+                  fmt::format("{} holds {} textures (accepted: 1)", title(), textures.size()));
+    const Object& texture = target(*textures.front());
+    if (texture.plugin != "bitmap")
+        refuse_at(textures.front()->location,
+                  fmt::format("{} cannot hold the texture plugin {} (accepted: bitmap)", title(),
+                              in_quotes(texture.plugin)));
+    return {std::make_shared<const Texture>(read_texture(document_, texture, notes_)),
+            textures.front()->location, title() + ": its texture", any_number()};
+}
+
 std::vector<const Child*> Properties::children(std::string_view tag) {
     asked_tags_.emplace_back(tag);
     std::vector<const Child*> result;

@@ -54,6 +54,9 @@ public:
 
     /// Takes the plugins of kind `tag` inside this one, in their order.
     std::vector<const Child*> children(std::string_view tag);
+    /// The one image that it holds, whatever its name, of values in any unit; refuses to be
+    /// without.
+    TextureUse only_bitmap();
     /// The one plugin of kind `tag`, or null; refuses a second one.
     const Object* only_child(std::string_view tag);
     const Object& target(const Child& child) const { return document_.objects[child.object]; }
