@@ -1,6 +1,7 @@
 """Writes the small images of the comparison scenes (PNG of 8 bits and PFM), and a mesh with colours of its own;
 deterministic, no input."""
 
+import math
 import pathlib
 import struct
 import zlib
@@ -13,12 +14,32 @@ def level(n):
     return (n * 97 + n * n * 31) % 256
 
 
+def waves(x, y):
+    """Heights and their slopes, of waves that repeat at 1."""
+    tau = 2 * math.pi
+    a, b = tau * (x + y), tau * (2 * x - y)
+    height = 0.5 + 0.3 * math.sin(a) * math.cos(b)
+    along_a, along_b = 0.3 * math.cos(a) * math.cos(b), -0.3 * math.sin(a) * math.sin(b)
+    return height, tau * (along_a + 2 * along_b), tau * (along_a - along_b)
+
+
+def normal(x, y):
+    """Of lower waves, as a colour."""
+    _, u, v = waves(x, y)
+    n = [-0.12 * u, -0.12 * v, 1]
+    length = math.hypot(*n)
+    return [round(255 * (0.5 + 0.5 * c / length)) for c in n]
+
+
 def png(width, height, components):
     """Rows of texels, of one component (grey) or three."""
     row = width * components
-    rows = b"".join(
-        b"\0" + bytes(level(y * row + k) for k in range(row)) for y in range(height)
-    )
+    return png_of(width, components, [[level(y * row + k) for k in range(row)] for y in range(height)])
+
+
+def png_of(width, components, rows):
+    height = len(rows)
+    rows = b"".join(b"\0" + bytes(row) for row in rows)
 
     def chunk(name, content):
         body = name + content
@@ -81,6 +102,11 @@ def main():
     (FOLDER / "colors.png").write_bytes(png(7, 5, 3))
     (FOLDER / "grey.png").write_bytes(png(6, 4, 1))
     (FOLDER / "sky.pfm").write_bytes(sky(16, 9))
+    centres = [(n + 0.5) / 16 for n in range(16)]
+    heights = [[round(255 * waves(x, y)[0]) for x in centres] for y in centres]
+    (FOLDER / "heights.png").write_bytes(png_of(16, 1, heights))
+    normals = [[c for x in centres for c in normal(x, y)] for y in centres]
+    (FOLDER / "normals.png").write_bytes(png_of(16, 3, normals))
     (FOLDER / "floats.pfm").write_bytes(pfm(4, 6))
     (FOLDER.parent / "meshes" / "colored.ply").write_text(colored_mesh(3))
 
