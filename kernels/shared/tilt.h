@@ -17,7 +17,7 @@ FN ShadingFrame tilted_frame(vec3 n, vec3 wo, Mask flips) {
     Mask away = flips & (wo.z * dot3(wo, n) <= R(0.));
     n = sel3(away, v3(-n.x, -n.y, n.z), n);
     Real squared = dot3(n, n);
-    Mask usable = squared > R(0.);
+    Mask usable = (squared > R(0.)) & finiteR(squared); // steeper is no slope
     n = sel3(usable, scale3(n, R(1.) / sqrtR(sel(usable, squared, R(1.)))),
              v3(R(0.), R(0.), R(1.)));
     return frame_from_tangent(n, v3(R(1.), R(0.), R(0.)));

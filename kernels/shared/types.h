@@ -74,8 +74,7 @@
 // Dielectrics keep their index in (er, eg, eb, kr, kg, kb): eta, 1/eta, and the high and low parts of eta^2 - 1 seen
 // from the outside and from the inside (the low parts decide on which side of the critical angle a direction lies).
 // Plastics keep just the outside and, in kg, the average reflectance of their coat from inside, less than 0 if it is nonlinear; and the
-// tint of what their coat mirrors in place of a transmittance. So do rough plastics, whose coat lets through what their table says
-// (device/energy_table.h): in kb of light to the viewer, in eg of light from where it comes.
+// tint of what their coat mirrors in place of a transmittance. Coats of rough ones let kb through to the viewer, eg from the light.
 // Rough conductors keep their reflectance, averaged over the cosine, in place of a transmittance.
 #define MATERIAL_FIELDS(X)                                                                         \
     X(int, kind)                                                                                   \
@@ -100,11 +99,9 @@
     X(int, reflectance) X(int, transmittance)                                                      \
     X(int, eta) X(int, k)                     /* of a conductor */                                 \
     X(int, alpha_u) X(int, alpha_v)                                                                \
-    X(int, tilt)                              /* row << TILT_SHIFT | TILT_*, of what tilts its normals */ \
-    X(float, tilt_scale)                      /* of heights, in the device's units; of normals 1, or -1 for what is below */
-
+    X(int, tilt) X(float, tilt_scale)         /* what tilts its normals: row << TILT_SHIFT | TILT_*; times this (normals: -1 below) */
 #define TILT_NORMALS 1 // its colours are normals, not heights
-#define TILT_FLIPS 2   // away from whoever looks: turned about the surface's normal
+#define TILT_FLIPS 2   // normals that would face away from the viewer are turned
 #define TILT_SHADOWS 4 // tilted facets shadow each other
 #define TILT_SHIFT 3
 

@@ -158,8 +158,9 @@ Tilt read_tilt(Reading& r) {
 }
 
 SurfaceMaterials read_bumpmap(Reading& r) {
+    const double scale = r.p.number("scale", 1.0);
     Tilt tilt = read_tilt(r);
-    tilt.scale = r.p.number("scale", 1.0);
+    tilt.scale = scale;
     return read_tilted(r, tilt);
 }
 
