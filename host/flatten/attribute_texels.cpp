@@ -80,7 +80,8 @@ AttributeTexels attribute_texels(const Scene& scene, const DeviceScene& records,
     for (std::size_t i = 0; i < scene.shapes.size(); i++) {
         const Shape& shape = scene.shapes[i];
         if (primitive_count(shape) > 0 && (looks_up(scene, records, shape.material_front, row) ||
-                                           looks_up(scene, records, shape.material_back, row))) {
+                                           looks_up(scene, records, shape.material_back, row) ||
+                                           records.radiance_textures[i] == row)) {
             const MeshAttribute& found = attribute_of(shape, attribute.name);
             texels.shapes[i] = static_cast<int>(first_word + texels.values.size()) -
                                static_cast<int>(words * primitives);

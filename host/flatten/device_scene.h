@@ -38,11 +38,14 @@ struct DeviceScene {
     std::vector<MaterialRecord> materials;
     std::vector<LobeRecord> lobes;                         ///< lists, one behind the other
     std::vector<MaterialTexturesRecord> material_textures; ///< a row a material
-    std::vector<int> blend_textures; ///< of the scene's blends: row of their weight; -1: none
+    std::vector<int> blend_textures;    ///< of the scene's blends: row of their weight; -1: none
+    std::vector<int> radiance_textures; ///< of the scene's shapes, likewise
+    std::vector<Rgb> texture_means;     ///< of `textures`, where some light has one
     std::vector<TextureRecord> textures;
     LargeVector<int> texels;
     std::vector<float> byte_values; ///< BYTE_VALUES of them where there are texels of bytes
     std::vector<LightRecord> lights;
+    std::vector<int> light_textures;  ///< empty where no light has one
     LightTree light_tree;             ///< empty where there is only one light
     Environment environment;
     std::vector<float> energy_tables; ///< one behind the other; materials know their first

@@ -12,13 +12,14 @@ namespace parhelion {
 struct LightRow {
     EmitterKind kind = emitter_constant;
     glm::dvec3 a{0.0}, b{0.0}, c{0.0};
-    Rgb radiance{0.0};
+    Rgb radiance{0.0}; ///< the mean of that of a texture
     double extra = 0.0;
     double area = 0.0;     ///< of the emitting surface; 0: no surface
     double etendue = 0.0;  ///< power of a radiance of 1, in any common unit
     double peak = 1.0;     ///< of what an image makes of the radiance, the largest
     double distance = 0.0; ///< of a light without size from the box around all shapes; 0 within
     int first_primitive = -1, primitive_count = 1; ///< that shine; -1: none does
+    int texture = -1;                              ///< that tells the radiance, a row; -1: none
 };
 
 inline double brightness(const Rgb& c) { return c.r + c.g + c.b; }

@@ -261,16 +261,20 @@ void note_lost_light(const Shape& shape, std::span<const LightRow> rows,
                                     shape.location.to_string(), shape.plugin, shape.id));
 }
 
-std::vector<LightRow> rows_of(const Shape& shape, const SceneFrame& frame, int first_primitive,
-                              std::vector<std::string>& notes) {
+std::vector<LightRow> rows_of(const Shape& shape, int texture, const DeviceScene& device,
+                              int first_primitive, std::vector<std::string>& notes) {
+    const SceneFrame& frame = device.frame;
+    const Rgb radiance =
+        texture < 0 ? *shape.radiance : device.texture_means[static_cast<std::size_t>(texture)];
     std::vector<LightRow> rows =
         std::visit([&](const auto& g) { return rows_of(g, frame); }, shape.geometry);
     for (LightRow& row : rows) {
-        row.radiance = *shape.radiance;
+        row.radiance = radiance;
+        row.texture = texture;
         row.etendue = pi * row.area;
         row.first_primitive += first_primitive;
     }
-    if (brightness(*shape.radiance) > 0.0) note_lost_light(shape, rows, notes);
+    if (brightness(radiance) > 0.0) note_lost_light(shape, rows, notes);
     return rows;
 }
 
@@ -280,9 +284,11 @@ std::vector<LightRow> light_rows(const Scene& scene, const DeviceScene& device,
                                  std::vector<std::string>& notes) {
     std::vector<LightRow> rows;
     int first = 0;
-    for (const Shape& shape : scene.shapes) {
+    for (std::size_t i = 0; i < scene.shapes.size(); i++) {
+        const Shape& shape = scene.shapes[i];
         if (shape.radiance) {
-            std::vector<LightRow> more = rows_of(shape, device.frame, first, notes);
+            std::vector<LightRow> more =
+                rows_of(shape, device.radiance_textures[i], device, first, notes);
             rows.insert(rows.end(), more.begin(), more.end());
         }
         first += static_cast<int>(primitive_count(shape));

@@ -5,23 +5,28 @@
 #include "host/flatten/light_bounds.h"
 #include "host/flatten/light_rows.h"
 #include "host/flatten/radiance_unit.h"
+#include "kernels/device/buffers.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace parhelion {
 namespace {
 
-LightRecord light_record(const LightRow& row, double pmf) {
+/// `told`: what a texture's values are multiplied by.
+LightRecord light_record(const LightRow& row, double pmf, double told) {
     auto single = [](double v) { return static_cast<float>(v); };
     LightRecord l{};
     l.kind = row.kind;
     l.ax = single(row.a.x), l.ay = single(row.a.y), l.az = single(row.a.z);
     l.bx = single(row.b.x), l.by = single(row.b.y), l.bz = single(row.b.z);
     l.cx = single(row.c.x), l.cy = single(row.c.y), l.cz = single(row.c.z);
-    l.r = single(row.radiance.r), l.g = single(row.radiance.g), l.b = single(row.radiance.b);
+    const Rgb radiance = row.texture < 0 ? row.radiance : Rgb(told);
+    l.r = single(radiance.r), l.g = single(radiance.g), l.b = single(radiance.b);
     l.pmf = single(pmf), l.area = single(row.area), l.extra = single(row.extra);
     return l;
 }
@@ -60,6 +65,16 @@ std::vector<LightBounds> bounds_of(const std::vector<LightRow>& rows, double tot
     return bounds;
 }
 
+void add_light_textures(const std::vector<LightRow>& rows, DeviceScene& out) {
+    auto has_one = [](const LightRow& row) { return row.texture >= 0; };
+    if (std::none_of(rows.begin(), rows.end(), has_one)) return;
+    for (const LightRow& row : rows) {
+        const int words[LIGHT_TEXTURE_WORDS] = {row.texture, row.first_primitive,
+                                                row.primitive_count};
+        out.light_textures.insert(out.light_textures.end(), std::begin(words), std::end(words));
+    }
+}
+
 } // namespace
 
 void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
@@ -78,8 +93,9 @@ void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
             out.geometry.primitives[row.first_primitive + k].light = static_cast<int>(i);
         if (row.kind == emitter_constant || row.kind == emitter_envmap)
             out.sky_light = static_cast<int>(i);
-        out.lights.push_back(light_record(row, power(row) / total));
+        out.lights.push_back(light_record(row, power(row) / total, 1.0 / out.frame.radiance_unit));
     }
+    add_light_textures(rows, out);
     out.light_tree = build_light_tree(bounds_of(rows, total), choice);
 }
 

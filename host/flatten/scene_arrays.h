@@ -36,6 +36,7 @@ inline SceneArrays scene_arrays(const DeviceScene& scene) {
             scene.texels,
             scene.byte_values,
             scene.lights,
+            scene.light_textures,
             scene.light_tree.nodes,
             scene.light_tree.leaves,
             scene.environment.shares,

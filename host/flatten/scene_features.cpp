@@ -125,6 +125,10 @@ void decide_lights(const DeviceScene& records, FeatureDecisions& out) {
     decide_kinds(out, emitter_features, records.lights, "lights",
                  [](const LightRecord& light) { return light.kind; });
     std::size_t lights = records.lights.size();
+    bool textured = !records.light_textures.empty();
+    out.decide(feature_textured_lights, textured,
+               fmt::format("{} of {} has a texture", textured ? "some" : "none",
+                           counted(lights, "light")));
     out.decide(feature_several_lights, lights > 1, counted(lights, "light"));
 }
 

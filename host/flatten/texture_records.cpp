@@ -5,6 +5,7 @@
 #include "host/flatten/environment_shares.h"
 #include "host/flatten/material_records.h"
 #include "host/flatten/texture_bounds.h"
+#include "host/flatten/texture_mean.h"
 #include "host/image/srgb.h"
 #include "host/parallel.h"
 
@@ -252,6 +253,18 @@ void add_attribute(const Scene& scene, const MeshAttributeTexture& attribute, in
     bounds[row] = bounds_of_values(added.values);
 }
 
+/// Of all textures, where some light has one.
+void add_means(const Scene& scene, const Rows& rows, const Images& images, DeviceScene& out) {
+    auto has_one = [](const Shape& shape) { return bool(shape.radiance_texture); };
+    if (std::none_of(scene.shapes.begin(), scene.shapes.end(), has_one)) return;
+    for (std::size_t row = 0; row < rows.textures().size(); row++) {
+        int image = images.of_row[row];
+        std::span<const std::byte> seen;
+        if (image >= 0) seen = images.images[image].in(out.texels);
+        out.texture_means.push_back(texture_mean(*rows.textures()[row], seen));
+    }
+}
+
 void add_attributes(const Scene& scene, const Rows& rows, DeviceScene& out,
                     std::vector<ValueBounds>& bounds) {
     for (std::size_t row = 0; row < rows.textures().size(); row++)
@@ -276,6 +289,8 @@ std::vector<std::shared_ptr<const Texture>> textures_of(const Scene& scene) {
     }
     for (const Blend& blend : scene.blends)
         rows(blend.weight.texture);
+    for (const Shape& shape : scene.shapes)
+        rows(shape.radiance_texture);
     static_cast<void>(sky_row(scene, rows));
     return rows.textures();
 }
@@ -283,6 +298,7 @@ std::vector<std::shared_ptr<const Texture>> textures_of(const Scene& scene) {
 void add_textures(const Scene& scene, DeviceScene& out) {
     out.material_textures.assign(scene.materials.size(), no_textures);
     out.blend_textures.assign(scene.blends.size(), -1);
+    out.radiance_textures.assign(scene.shapes.size(), -1);
     if (!looks_at_materials(scene.integrator)) return;
     Rows rows;
     for (std::size_t i = 0; i < scene.materials.size(); i++) {
@@ -291,6 +307,8 @@ void add_textures(const Scene& scene, DeviceScene& out) {
     }
     for (std::size_t i = 0; i < scene.blends.size(); i++)
         out.blend_textures[i] = rows(scene.blends[i].weight.texture);
+    for (std::size_t i = 0; i < scene.shapes.size(); i++)
+        out.radiance_textures[i] = rows(scene.shapes[i].radiance_texture);
     const int sky = looks_at_lights(scene.integrator) ? sky_row(scene, rows) : -1;
     const Images images = place_images(scene, rows);
     read_images(images.images, out.texels);
@@ -304,17 +322,9 @@ void add_textures(const Scene& scene, DeviceScene& out) {
     }
     add_attributes(scene, rows, out, bounds);
     check_values(rows, bounds);
+    add_means(scene, rows, images, out);
     if (bytes) out.byte_values = make_byte_values();
     if (sky >= 0) out.environment = make_environment(out, sky);
-}
-
-std::vector<float> make_byte_values() {
-    std::vector<float> values(BYTE_VALUES);
-    for (int byte = 0; byte < 256; byte++) {
-        values[byte] = static_cast<float>(srgb_decode(byte / 255.0));
-        values[256 + byte] = static_cast<float>(byte / 255.0);
-    }
-    return values;
 }
 
 std::span<const TextureRecord> surface_textures(const DeviceScene& records) {

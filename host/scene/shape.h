@@ -74,7 +74,8 @@ struct Shape {
     /// `twosided` gives the back a material; otherwise it is that of the front for BSDFs that look
     /// at both sides themselves (dielectrics, null) and `no_material` for the rest.
     int material_front = no_material, material_back = no_material;
-    std::optional<Rgb> radiance; ///< area emitter on the front side, W/(m^2 sr)
+    std::optional<Rgb> radiance;   ///< area emitter on the front side, W/(m^2 sr)
+    TextureUse radiance_texture{}; ///< tells it in the place of that value, 1
 };
 
 } // namespace parhelion

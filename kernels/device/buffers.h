@@ -16,11 +16,15 @@
     X(MaterialRecord, materials) X(LobeRecord, lobes)                                              \
     X(MaterialTexturesRecord, material_textures) X(TextureRecord, textures)                        \
     X(int, texels) /* of images, one behind the other */                                           \
-    X(float, byte_values) X(LightRecord, lights)                                                   \
+    X(float, byte_values) X(LightRecord, lights) X(int, light_textures) /* LIGHT_TEXTURE_WORDS a row */ \
     X(LightNodeRecord, light_nodes) X(int, light_leaves) /* the leaf of each light */              \
     X(int, environment) /* shares of the cells of a sky's image (device/environment.h) */           \
     X(float, energy_tables)                                                                        \
     X(FilterBin, filter_table) X(float, filter_values) /* at n / FILTER_INTERVALS pixels */
+
+// Of a row of the light table, where some light has a texture: the row of that, which tells what its radiance is multiplied by (-1:
+// nothing), the first primitive that shines, and how many do.
+#define LIGHT_TEXTURE_WORDS 3
 
 // element type, name: what a render works on
 //   path_state    words of PATH_FIELDS x state_stride: live paths, packed at the front of each segment

@@ -4,6 +4,7 @@
 
 #include "device/environment.h"
 #include "device/light_table.h"
+#include "device/light_texture.h"
 #include "device/shade_lobes.h"
 
 typedef struct {
@@ -40,6 +41,10 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
         if (someLane(sky))
             d.sample = sel_emitter(sky, sky_chosen(w.scene, light, w.params->sky_texture, r, sky),
                                    d.sample);
+    }
+    if (HAS(textured_lights)) {
+        vec3 color = sampled_light_color(w.scene, v.path, pick.row, d.sample.q, reached);
+        d.sample.weight = mul3(d.sample.weight, color);
     }
     NOTE(light, d.sample);
     vec3 wi = to_local(s.frame, d.sample.wi);

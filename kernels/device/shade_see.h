@@ -7,6 +7,7 @@
 #include "device/coverage.h"
 #include "device/environment.h"
 #include "device/light_table.h"
+#include "device/light_texture.h"
 #include "device/notes.h"
 #include "device/shade_work.h"
 
@@ -54,6 +55,8 @@ FN vec3 surface_emission(ShadeWork w, PathVertex v) {
     else
         weighted = emits & !emits;
     EmitterHit e = emitter_hit(light, lit_from(v.path), v.path.direction, v.surface.p, weighted);
+    if (HAS(textured_lights))
+        e.radiance = mul3(e.radiance, light_color(w.scene, row, texture_place(v), emits));
     NOTE(emission, e);
     emitted = sel3(emits, e.radiance, emitted);
     if (someLane(weighted)) {

@@ -40,6 +40,7 @@
     X(textures)           /* some parameter of a material is a texture; of these: */                \
     X(textured_reflectance) X(textured_transmittance) X(textured_index) X(textured_roughness)      \
     X(textured_blends)    /* and what several materials at once share */                            \
+    X(textured_lights)    /* and some light shines as one tells */                                  \
     X(texels_byte) X(texels_half) X(texels_single) /* components of their texels */                 \
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
     X(blends)             /* some surface is several materials at once */                            \

@@ -156,6 +156,10 @@ inline void set_textured_blends(Setup& s, bool on) {
         shape.material_back = add_blend(s.scene, {weight, shape.material_back, no_material});
     }
 }
+inline void set_textured_lights(Setup& s, bool on) {
+    for (Shape& shape : s.scene.shapes)
+        if (on && shape.radiance) shape.radiance_texture = example_checkerboard().texture;
+}
 inline void set_ggx(Setup& s, bool on) {
     if (on) return;
     for (Material& m : s.scene.materials)

@@ -172,9 +172,8 @@ TEST_CASE("scene textures: refusals name file, line, parameter, and what is acce
     refused("<shape type='sphere'><bsdf type='dielectric'><texture type='checkerboard' "
             "name='int_ior'/></bsdf></shape>",
             "parameter \"int_ior\" is given as <texture type=\"checkerboard\">");
-    refused("<shape type='sphere'><emitter type='area'><texture type='checkerboard' "
-            "name='radiance'/></emitter></shape>",
-            "parameter \"radiance\" is given as <texture type=\"checkerboard\">");
+    refused("<emitter type='point'><texture type='checkerboard' name='intensity'/></emitter>",
+            "parameter \"intensity\" is given as <texture type=\"checkerboard\">");
     refused(diffuse("<texture type='checkerboard' name='color'/>"),
             "cannot hold the texture plugin \"checkerboard\"");
     refused(

@@ -131,11 +131,11 @@ Emitter read_emitter(const Document& document, const Object& object, Notes& note
     return emitter;
 }
 
-Rgb read_area_emitter(const Document& document, const Object& object, Notes& notes) {
+Textured<Rgb> read_area_emitter(const Document& document, const Object& object, Notes& notes) {
     Properties p(document, object, notes);
     if (find_plugin(emitter_plugins, object))
         refuse(object.location, p.title() + " cannot stand inside a <shape> (accepted: area)");
-    const Rgb radiance = read_emission(p, "radiance");
+    const Textured<Rgb> radiance = p.textured_color("radiance", Rgb(1.0), SpectrumUse::emission);
     read_sampling_weight(p);
     p.finish();
     return radiance;

@@ -27,7 +27,7 @@ SurfaceMaterials read_bsdf(const Document& document, const Object& object, Scene
 Emitter read_emitter(const Document& document, const Object& object, Notes& notes);
 
 /// The radiance of an `area` emitter inside a shape.
-Rgb read_area_emitter(const Document& document, const Object& object, Notes& notes);
+Textured<Rgb> read_area_emitter(const Document& document, const Object& object, Notes& notes);
 
 /// The geometry of a shape; its bsdf and emitter are left to the caller.
 Geometry read_shape(const Document& document, const Object& object, Notes& notes);

@@ -64,6 +64,12 @@ SurfaceMaterials SceneBuilder::default_material(bool emits) {
     return entry->second;
 }
 
+/// A texture tells it in the place of 1.
+static void set_radiance(Shape& shape, const Textured<Rgb>& radiance) {
+    shape.radiance = radiance.texture ? Rgb(1.0) : radiance.constant;
+    shape.radiance_texture = radiance.texture;
+}
+
 void SceneBuilder::add_shape(const Object& object) {
     Shape shape{object.id, object.plugin, object.location, {}, {}, {}, {}};
     if (shape.id.empty()) shape.id = "shape " + std::to_string(scene_.shapes.size() + 1);
@@ -71,7 +77,7 @@ void SceneBuilder::add_shape(const Object& object) {
     problems_.attempt([&] { shape.geometry = read_shape(document_, object, scene_.notes); });
     problems_.attempt([&] {
         if (parts.emitter)
-            shape.radiance = read_area_emitter(document_, *parts.emitter, scene_.notes);
+            set_radiance(shape, read_area_emitter(document_, *parts.emitter, scene_.notes));
     });
     problems_.attempt([&] {
         const SurfaceMaterials materials =
@@ -182,11 +188,17 @@ void refuse_only_empty(const Scene& scene) {
 /// points.
 void drop_unread_attributes(Scene& scene) {
     std::set<std::string> read;
+    const auto reads = [&](const TextureUse& use) {
+        if (!use) return;
+        const auto* const a = std::get_if<MeshAttributeTexture>(&use.texture->kind);
+        if (a) read.insert(a->name);
+    };
     for (const Material& material : scene.materials)
-        each_texture(material.bsdf, [&](const TextureUse& use) {
-            const auto* const a = std::get_if<MeshAttributeTexture>(&use.texture->kind);
-            if (a) read.insert(a->name);
-        });
+        each_texture(material.bsdf, reads);
+    for (const Blend& blend : scene.blends)
+        reads(blend.weight.texture);
+    for (const Shape& shape : scene.shapes)
+        reads(shape.radiance_texture);
     for (Shape& shape : scene.shapes) {
         Mesh* const mesh = std::get_if<Mesh>(&shape.geometry);
         if (!mesh) continue;
