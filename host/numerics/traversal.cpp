@@ -40,8 +40,15 @@ Program compile(const RenderDevice& d, const ProgramOptions& options) {
     return {d.context, d.device, d.cache, program_source({"intersect.cl", "shadow.cl"}, options)};
 }
 
+/// What is in the way of a ray is: there are no materials that light shines through.
+FeatureSet of_geometry(FeatureSet features, bool streams) {
+    features.set(feature_ray_streams, streams);
+    features.set(feature_clear_shadows, false);
+    return features;
+}
+
 ProgramOptions with_streams(ProgramOptions options, bool streams) {
-    options.features.set(feature_ray_streams, streams);
+    options.features = of_geometry(options.features, streams);
     return options;
 }
 
@@ -169,7 +176,7 @@ void Traversal::run_on_host(Stage stage, const RayLayout& layout, Work& work) co
     memory.results = std::move(work.results);
     auto& state = stage == Stage::shadow ? memory.shadow_state : memory.path_state;
     state = std::move(work.state);
-    FeatureSet features = FeatureSet::all() - FeatureSet{feature_ray_streams};
+    FeatureSet features = of_geometry(FeatureSet::all(), false);
     HostLaunch<float> launch{scene_arrays(scene_), params(layout), features, WaveParams{}, memory};
     parallel_for(layout.segments, [&](std::size_t number) {
         run_work_item(stage, launch, 1, static_cast<int>(number));
