@@ -171,6 +171,7 @@ Subcommand info_subcommand() {
              {"!--no-energy-compensation", &c->image.energy_compensation, energy_compensation_help},
              {"--allow-outside", &c->image.allow_outside,
               "Let the scene name files outside its own folder"},
+             {"--lenient", &c->image.lenient, lenient_help},
              {"--json", &c->json, "One JSON object"}},
         .run = [c] { return run_info(*c); },
     };

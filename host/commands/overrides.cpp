@@ -125,7 +125,8 @@ LoadOptions load_options(const RenderCommand& command) {
     return {.parameters = parse_definitions(command.definitions),
             .allow_outside = command.allow_outside,
             .sensor = command.sensor,
-            .own_integrator = command.integrator.has_value()};
+            .own_integrator = command.integrator.has_value(),
+            .lenient = command.lenient};
 }
 
 void apply_overrides(const RenderCommand& command, Scene& scene) {

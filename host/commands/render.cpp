@@ -35,6 +35,8 @@ void add_metadata(const Scene& scene, const RenderReport& report, Image& image) 
                                 static_cast<std::int64_t>(scene.sampler.samples_per_pixel));
     image.metadata.emplace_back("seed", static_cast<std::int64_t>(scene.sampler.seed));
     image.metadata.emplace_back("device", report.device);
+    if (report.lenient)
+        image.metadata.emplace_back("notes", fmt::format("{}", fmt::join(report.notes, "\n")));
 }
 
 /// Returns what the file does not hold as it is.
@@ -102,6 +104,8 @@ int run_render(const RenderCommand& command) {
 
     RenderResult result = render_where_asked(command, scene, progress);
     result.report.load_seconds = load_seconds;
+    result.report.notes = scene.notes;
+    result.report.lenient = command.lenient;
     add_metadata(scene, result.report, result.image);
     // Not a matter of progress: told when quiet, too.
     bool bad = result.report.non_finite_samples > 0;

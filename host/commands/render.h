@@ -28,7 +28,7 @@ struct RenderCommand {
     bool trace = false;
     int threads = 0; ///< 0: all
     bool next_event = true, energy_compensation = true;
-    bool force = false, quiet = false, strict = false, allow_outside = false;
+    bool force = false, quiet = false, strict = false, allow_outside = false, lenient = false;
     RenderOptions options;
 };
 
@@ -63,6 +63,9 @@ void leave_out_energy_compensation(Scene& scene);
 /// What --sensor and --integrator do, for the options of several subcommands.
 inline constexpr const char* sensor_help =
     "Which of the scene's sensors, by its place in the file; `info` names them (0)";
+inline constexpr const char* lenient_help =
+    "Leave out what is not known, or read it as what is nearest; each is told in a note, and the "
+    "notes stand in --stats and in the header of the image";
 inline constexpr const char* integrator_help =
     "path, direct, normals, depth or aov; in the place of any that the scene names";
 

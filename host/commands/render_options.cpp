@@ -82,6 +82,7 @@ std::vector<Option> light_options(RenderCommand& c) {
          {.delimiter = ','}},
         {"-D,--define", &c.definitions, "name=value for the scene's $name (repeat for more)"},
         {"--allow-outside", &c.allow_outside, "Let the scene name files outside its own folder"},
+        {"--lenient", &c.lenient, lenient_help},
     });
 }
 

@@ -71,6 +71,8 @@ nlohmann::json to_json(const SceneFrame& frame) {
 
 nlohmann::json to_json(const RenderReport& r) {
     return {{"scene", r.scene_file},
+            {"notes", r.notes},
+            {"lenient", r.lenient},
             {"device", {{"name", r.device}, {"driver", r.driver}, {"lanes", r.lanes}}},
             {"image",
              {{"width_pixels", r.width},

@@ -16,6 +16,8 @@ struct LoadOptions {
     std::optional<int> sensor{}; ///< which of the file's, from 0; absent: the first
     /// The caller brings an integrator: one in the file that is not known is no mistake then.
     bool own_integrator = false;
+    /// What is not known is left out, or read as what is nearest, each with a note.
+    bool lenient = false;
 };
 
 /// Loads a scene (the format is chosen by the file's extension).

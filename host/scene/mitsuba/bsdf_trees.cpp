@@ -1,5 +1,6 @@
 // The bsdf of a surface: a material, or a plugin that holds others.
 #include "host/scene/mitsuba/bsdfs.h"
+#include "host/scene/mitsuba/leniency.h"
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
@@ -157,14 +158,14 @@ Tilt read_tilt(Reading& r) {
     return tilt;
 }
 
-SurfaceMaterials read_bumpmap(Reading& r) {
+SurfaceMaterials tilted_by_heights(Reading& r) {
     const double scale = r.p.number("scale", 1.0);
     Tilt tilt = read_tilt(r);
     tilt.scale = scale;
     return read_tilted(r, tilt);
 }
 
-SurfaceMaterials read_normalmap(Reading& r) {
+SurfaceMaterials tilted_by_normals(Reading& r) {
     Tilt tilt = read_tilt(r);
     tilt.of_normals = true;
     const auto& bitmap = std::get<BitmapTexture>(tilt.texture.texture->kind);
@@ -175,6 +176,21 @@ SurfaceMaterials read_normalmap(Reading& r) {
     return read_tilted(r, tilt);
 }
 
+/// Leniently, where the tilt cannot be used: what it holds as it is.
+SurfaceMaterials tilted_or_held(Reading& r, SurfaceMaterials (*read)(Reading&)) {
+    if (!r.document.lenient) return read(r);
+    try {
+        return read(r);
+    } catch (const InputError& why) {
+        r.notes.push_back(std::string(why.what()) + ": its bsdf is not tilted");
+        Reading again{r.document, r.object, r.id, r.scene, r.notes};
+        return read_nested(again, 1, 1)[0].sides;
+    }
+}
+
+SurfaceMaterials read_bumpmap(Reading& r) { return tilted_or_held(r, tilted_by_heights); }
+SurfaceMaterials read_normalmap(Reading& r) { return tilted_or_held(r, tilted_by_normals); }
+
 #define NESTING_BSDFS(X) X(twosided) X(mask) X(blendbsdf) X(bumpmap) X(normalmap)
 
 SurfaceMaterials read_surface(Reading&& r) {
@@ -182,6 +198,9 @@ SurfaceMaterials read_surface(Reading&& r) {
 #define MATERIAL_PLUGIN(name, ...) PluginEntry<BsdfReader>{#name, read_material<read_##name>},
 #define NESTING_PLUGIN(name) PluginEntry<BsdfReader>{#name, read_##name},
     static constexpr std::array plugins{MATERIALS(MATERIAL_PLUGIN) NESTING_BSDFS(NESTING_PLUGIN)};
+    // What takes the place of an unknown one can be unknown as well: what that one holds.
+    if (const auto kin = kin_outside(plugins, r.document, r.object, r.notes))
+        return read_surface({r.document, *kin, r.id, r.scene, r.notes});
     return find_plugin(plugins, r.object)(r);
 }
 

@@ -19,6 +19,12 @@ namespace parhelion::mitsuba {
 
 class XmlFile;
 
+/// A plugin or an element that no table has: what a lenient reader leaves out.
+class NotKnown : public InputError {
+public:
+    using InputError::InputError;
+};
+
 /// Of a value that could not be read, which has been said: readers take what a missing one is.
 struct Unread {};
 
@@ -56,6 +62,7 @@ struct Document {
     std::vector<std::string> notes;
     Problems problems{};         ///< of its syntax
     bool own_integrator = false; ///< LoadOptions::own_integrator
+    bool lenient = false;        ///< LoadOptions::lenient
 };
 
 /// Reads an XML scene with all its includes: parameters substituted, old versions upgraded,

@@ -1,4 +1,5 @@
 // The emitter plugins.
+#include "host/scene/mitsuba/leniency.h"
 #include "host/scene/mitsuba/number_parameters.h"
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/plugins.h"
@@ -122,8 +123,10 @@ void read_sampling_weight(Properties& p) {
 } // namespace
 
 Emitter read_emitter(const Document& document, const Object& object, Notes& notes) {
-    Properties p(document, object, notes);
-    const EmitterReader read = find_plugin(emitter_plugins, object);
+    const auto kin = kin_outside(emitter_plugins, document, object, notes);
+    const Object& known = kin ? *kin : object;
+    Properties p(document, known, notes);
+    const EmitterReader read = find_plugin(emitter_plugins, known);
     if (!read) refuse(object.location, p.title() + " can only stand inside a <shape>");
     const Emitter emitter = read(p);
     read_sampling_weight(p);

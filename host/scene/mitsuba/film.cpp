@@ -1,5 +1,6 @@
 // The film plugin and the reconstruction filters.
 #include "host/scene/limits.h"
+#include "host/scene/mitsuba/leniency.h"
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
@@ -144,16 +145,20 @@ constexpr PluginTable<FilterReader, 6> filter_plugins = {{{"box", read_box},
 } // namespace
 
 ReconstructionFilter read_filter(const Document& document, const Object& object, Notes& notes) {
-    Properties p(document, object, notes);
-    const FilterReader read = find_plugin(filter_plugins, object);
+    const auto kin = kin_outside(filter_plugins, document, object, notes);
+    const Object& known = kin ? *kin : object;
+    Properties p(document, known, notes);
+    const FilterReader read = find_plugin(filter_plugins, known);
     const ReconstructionFilter filter = read(p);
     p.finish();
     return filter;
 }
 
 Film read_film(const Document& document, const Object& object, Notes& notes) {
-    Properties p(document, object, notes);
-    const FilmReader read = find_plugin(film_plugins, object);
+    const auto kin = kin_outside(film_plugins, document, object, notes);
+    const Object& known = kin ? *kin : object;
+    Properties p(document, known, notes);
+    const FilmReader read = find_plugin(film_plugins, known);
     Film film = read(p);
     const Object* const filter = p.only_child("rfilter");
     p.finish();

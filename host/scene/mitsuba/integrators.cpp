@@ -1,4 +1,5 @@
 // The integrator plugins.
+#include "host/scene/mitsuba/leniency.h"
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
@@ -155,8 +156,10 @@ Integrator read_foreign(const Document& document, const Object& object, Notes& n
 
 Integrator read_integrator(const Document& document, const Object& object, Notes& notes) {
     if (document.own_integrator && !is_known(object)) return read_foreign(document, object, notes);
-    Properties p(document, object, notes);
-    const IntegratorReader read = find_plugin(integrator_plugins, object);
+    const auto kin = kin_outside(integrator_plugins, document, object, notes);
+    const Object& known = kin ? *kin : object;
+    Properties p(document, known, notes);
+    const IntegratorReader read = find_plugin(integrator_plugins, known);
     const Integrator integrator = read({p, document, notes});
     p.finish();
     return integrator;

@@ -119,7 +119,8 @@ const NumberParameter other_parameters[] = {
     {"emitter", "directional", "direction", vector, coordinate, "not all 0"},
     {"emitter", "spot", "cutoff_angle", real, half_angle},
     {"emitter", "spot", "beam_width", real, between(0, 180).in("degrees"), "up to cutoff_angle"},
-    {"emitter", "point spot directional constant envmap area", "sampling_weight", real, greater_than(0)},
+    {"emitter", "point spot directional constant envmap area", "sampling_weight", real,
+     greater_than(0)},
 
     {"texture", "checkerboard", "color0", color, texture_value, "what its parameter takes"},
     {"texture", "checkerboard", "color1", color, texture_value, "what its parameter takes"},

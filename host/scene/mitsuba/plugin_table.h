@@ -19,7 +19,7 @@ struct PluginEntry {
 template<typename Read, std::size_t N>
 using PluginTable = std::array<PluginEntry<Read>, N>;
 
-/// The table's reader of `object`; throws InputError naming the plugin and all that are accepted.
+/// The table's reader of `object`; throws NotKnown naming the plugin and all that are accepted.
 template<typename Read, std::size_t N>
 Read find_plugin(const PluginTable<Read, N>& table, const Object& object) {
     std::string accepted;
@@ -27,8 +27,8 @@ Read find_plugin(const PluginTable<Read, N>& table, const Object& object) {
         if (entry.name == object.plugin) return entry.read;
         accepted += (accepted.empty() ? "" : ", ") + std::string(entry.name);
     }
-    refuse(object.location, object.tag + " plugin " + in_quotes(object.plugin) +
-                                " is not supported (accepted: " + accepted + ")");
+    throw NotKnown(object.location.to_string() + ": " + object.tag + " plugin " +
+                   in_quotes(object.plugin) + " is not supported (accepted: " + accepted + ")");
 }
 
 } // namespace parhelion::mitsuba

@@ -70,12 +70,16 @@ const SourceLocation& Properties::location_of(std::string_view name) const {
 const Parameter* Properties::take(std::string_view name) {
     if (!contains(asked_, name)) asked_.emplace_back(name);
     if (!contains(known_, name)) known_.emplace_back(name);
-    for (const Child& child : object_.children)
-        if (child.name == name)
-            refuse(child.location,
-                   fmt::format("{}: parameter {} is given as <{} type={}>, which is not supported",
-                               title(), in_quotes(name), target(child).tag,
-                               in_quotes(target(child).plugin)));
+    for (const Child& child : object_.children) {
+        if (child.name != name) continue;
+        textures_.emplace_back(name);
+        refuse_or_drop(child.location,
+                       fmt::format("{}: parameter {} is given as <{} type={}>, which is not "
+                                   "supported",
+                                   title(), in_quotes(name), target(child).tag,
+                                   in_quotes(target(child).plugin)));
+        return nullptr;
+    }
     const Parameter* const parameter = find(name);
     return parameter && std::holds_alternative<Unread>(parameter->value) ? nullptr : parameter;
 }
@@ -99,6 +103,13 @@ void Properties::refuse_at(const SourceLocation& place, const std::string& messa
 void Properties::refuse_value(std::string_view name, const std::string& found,
                               const std::string& accepted) const {
     refuse_at(location_of(name), value_message(name, found, accepted));
+}
+
+void Properties::refuse_or_drop(const SourceLocation& place, const std::string& what) {
+    if (document_.lenient)
+        notes_.push_back(place.to_string() + ": " + what + ": left out");
+    else
+        problems_.attempt([&] { refuse(place, what); });
 }
 
 void Properties::keep(std::string_view name, const std::string& found,
@@ -179,7 +190,11 @@ std::size_t Properties::choice(std::string_view name, std::string_view missing,
         std::string list;
         for (const std::string_view item : accepted)
             list += (list.empty() ? "" : ", ") + std::string(item);
-        keep(name, in_quotes(value), list);
+        if (document_.lenient)
+            note(name, value_message(name, in_quotes(value), list) + ": taken as " +
+                           in_quotes(*accepted.begin()));
+        else
+            keep(name, in_quotes(value), list);
         return 0;
     }
     return static_cast<std::size_t>(found - accepted.begin());
@@ -231,6 +246,8 @@ const Object* Properties::take_texture(std::string_view name) {
     const Child* found = nullptr;
     for (const Child& child : object_.children) {
         if (!is_texture(child, name)) continue;
+        // `take` says so.
+        if (document_.lenient && !is_known_texture(target(child))) continue;
         if (found || find(name))
             refuse(child.location,
                    fmt::format("{}: parameter {} is given twice", title(), in_quotes(name)));
@@ -304,19 +321,15 @@ void Properties::note(std::string_view about, const std::string& message) {
 void Properties::finish() {
     for (const Parameter& parameter : object_.parameters)
         if (!contains(asked_, parameter.name))
-            problems_.attempt([&] {
-                refuse(parameter.location,
-                       fmt::format("{} has no parameter {} (accepted: {})", title(),
-                                   in_quotes(parameter.spelling), joined(known_)));
-            });
+            refuse_or_drop(parameter.location,
+                           fmt::format("{} has no parameter {} (accepted: {})", title(),
+                                       in_quotes(parameter.spelling), joined(known_)));
     for (const Child& child : object_.children)
         if (!contains(asked_tags_, target(child).tag) && !contains(textures_, child.name))
-            problems_.attempt([&] {
-                refuse(child.location,
-                       fmt::format("{} cannot hold the {} plugin {} (accepted: {})", title(),
-                                   target(child).tag, in_quotes(target(child).plugin),
-                                   joined(asked_tags_)));
-            });
+            refuse_or_drop(child.location,
+                           fmt::format("{} cannot hold the {} plugin {} (accepted: {})", title(),
+                                       target(child).tag, in_quotes(target(child).plugin),
+                                       joined(asked_tags_)));
     problems_.throw_if_any();
 }
 

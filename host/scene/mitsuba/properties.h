@@ -82,6 +82,8 @@ private:
     [[noreturn]] void refuse_at(const SourceLocation& place, const std::string& message) const;
     std::string spelling(std::string_view name) const;
     const Parameter* take(std::string_view name);
+    /// Keeps what is refused, or where the document is read leniently notes that it is left out.
+    void refuse_or_drop(const SourceLocation& place, const std::string& what);
     bool is_texture(const Child& child, std::string_view name) const;
     const Object* take_texture(std::string_view name);
     TextureUse texture_use(std::string_view name, const Object& texture);

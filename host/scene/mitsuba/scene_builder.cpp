@@ -29,6 +29,19 @@ public:
     Scene build(const std::string& file);
 
 private:
+    /// Keeps what is refused; where the document is read leniently, an unknown plugin is left out
+    /// with a note.
+    template<typename Act>
+    void attempt(const Act& act) {
+        problems_.attempt([&] {
+            try {
+                act();
+            } catch (const NotKnown& unknown) {
+                if (!document_.lenient) throw;
+                scene_.notes.push_back(std::string(unknown.what()) + ": left out");
+            }
+        });
+    }
     void add(const Child& child);
     void check_definition(const Child& child, const Object& object);
     void add_shape(const Object& object);
@@ -74,8 +87,12 @@ void SceneBuilder::add_shape(const Object& object) {
     Shape shape{object.id, object.plugin, object.location, {}, {}, {}, {}};
     if (shape.id.empty()) shape.id = "shape " + std::to_string(scene_.shapes.size() + 1);
     ShapeParts parts = shape_parts(document_, object);
-    problems_.attempt([&] { shape.geometry = read_shape(document_, object, scene_.notes); });
-    problems_.attempt([&] {
+    bool there = false;
+    attempt([&] {
+        shape.geometry = read_shape(document_, object, scene_.notes);
+        there = true;
+    });
+    attempt([&] {
         if (parts.emitter)
             set_radiance(shape, read_area_emitter(document_, *parts.emitter, scene_.notes));
     });
@@ -85,7 +102,7 @@ void SceneBuilder::add_shape(const Object& object) {
         shape.material_front = materials.front;
         shape.material_back = materials.back;
     });
-    scene_.shapes.push_back(std::move(shape));
+    if (there) scene_.shapes.push_back(std::move(shape));
 }
 
 void SceneBuilder::add_emitter(const Object& object) {
@@ -161,9 +178,10 @@ void SceneBuilder::check_definition(const Child& child, const Object& object) {
     else if (object.tag == "texture")
         check_texture(document_, object, scene_.notes);
     else
-        refuse(child.location, object.tag + " plugin " + in_quotes(object.plugin) +
-                                   " is not supported (<scene> holds bsdf, emitter, integrator, "
-                                   "sensor, shape)");
+        throw NotKnown(child.location.to_string() + ": " + object.tag + " plugin " +
+                       in_quotes(object.plugin) +
+                       " is not supported (<scene> holds bsdf, emitter, integrator, "
+                       "sensor, shape)");
 }
 
 /// An empty mesh among others is noted by its reader; a scene of nothing else is a mistake, which
@@ -215,7 +233,7 @@ Scene SceneBuilder::build(const std::string& file) {
     scene_.file = file;
     const Object& root = document_.objects.front();
     for (const Child& child : root.children)
-        problems_.attempt([&] { add(child); });
+        attempt([&] { add(child); });
     for (const Parameter& parameter : root.parameters)
         problems_.attempt([&] {
             refuse(parameter.location, "<scene> has no parameter " + in_quotes(parameter.spelling));

@@ -1,4 +1,5 @@
 // The sensor plugins and the sampler.
+#include "host/scene/mitsuba/leniency.h"
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
@@ -144,16 +145,18 @@ constexpr PluginTable<SamplerReader, 8> sampler_plugins = {{{"independent", read
 } // namespace
 
 Sampler read_sampler(const Document& document, const Object& object, Notes& notes) {
-    Properties p(document, object, notes);
-    const SamplerReader read = find_plugin(sampler_plugins, object);
+    const auto kin = kin_outside(sampler_plugins, document, object, notes);
+    const Object& known = kin ? *kin : object;
+    Properties p(document, known, notes);
+    const SamplerReader read = find_plugin(sampler_plugins, known);
     read(p);
     Sampler sampler;
-    sampler.plugin = object.plugin;
+    sampler.plugin = known.plugin;
     sampler.samples_per_pixel = static_cast<int>(p.integer("sample_count", default_samples));
     sampler.seed = static_cast<std::uint32_t>(p.integer("seed", 0));
     p.integer("dimension", 4); // of 0.x: up to where its points are well spread
-    if (object.plugin != "independent")
-        p.note("", "sampler " + in_quotes(object.plugin) +
+    if (known.plugin != "independent")
+        p.note("", "sampler " + in_quotes(known.plugin) +
                        " does not choose the pattern of the samples, --sampler does; only the "
                        "noise differs");
     p.finish();
@@ -174,8 +177,10 @@ void note_narrow_pixels(Properties& p, const Camera& camera, const Film& film) {
 }
 
 SensorParts read_sensor(const Document& document, const Object& object, Notes& notes) {
-    Properties p(document, object, notes);
-    const SensorReader read = find_plugin(sensor_plugins, object);
+    const auto kin = kin_outside(sensor_plugins, document, object, notes);
+    const Object& known = kin ? *kin : object;
+    Properties p(document, known, notes);
+    const SensorReader read = find_plugin(sensor_plugins, known);
     SensorParts parts;
     const Object* const film = p.only_child("film");
     const Object* const sampler = p.only_child("sampler");

@@ -3,6 +3,7 @@
 #include "host/scene/meshes/mesh_obj.h"
 #include "host/scene/meshes/mesh_ply.h"
 #include "host/scene/meshes/mesh_serialized.h"
+#include "host/scene/mitsuba/leniency.h"
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
@@ -208,8 +209,10 @@ ShapeParts shape_parts(const Document& document, const Object& object) {
 }
 
 Geometry read_shape(const Document& document, const Object& object, Notes& notes) {
-    Properties p(document, object, notes);
-    const ShapeReader read = find_plugin(shape_plugins, object);
+    const auto kin = kin_outside(shape_plugins, document, object, notes);
+    const Object& known = kin ? *kin : object;
+    Properties p(document, known, notes);
+    const ShapeReader read = find_plugin(shape_plugins, known);
     p.only_child("bsdf");
     p.only_child("emitter");
     Geometry geometry = read({p, document, notes});

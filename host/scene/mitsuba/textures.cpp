@@ -4,6 +4,8 @@
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/properties.h"
 
+#include <algorithm>
+
 namespace parhelion::mitsuba {
 
 namespace {
@@ -75,6 +77,11 @@ TexelSource read_image(Properties& p, std::string_view name) {
         if (what.starts_with(place.to_string())) throw;
         refuse(place, what);
     }
+}
+
+bool is_known_texture(const Object& object) {
+    return std::any_of(texture_plugins.begin(), texture_plugins.end(),
+                       [&](const auto& entry) { return entry.name == object.plugin; });
 }
 
 double luminance(const Rgb& color) {

@@ -19,6 +19,8 @@ class Properties;
 /// InputError at the parameter.
 TexelSource read_image(Properties& p, std::string_view name);
 
+bool is_known_texture(const Object& object);
+
 /// A texture that is not the same everywhere. An image's header is read, its texels are not. Throws
 /// InputError.
 Texture read_texture(const Document& document, const Object& object,
