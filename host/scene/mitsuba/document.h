@@ -19,7 +19,7 @@ namespace parhelion::mitsuba {
 
 class XmlFile;
 
-/// A plugin or an element that no table has: what a lenient reader leaves out.
+/// A plugin that no table has: what a lenient reader leaves out.
 class NotKnown : public InputError {
 public:
     using InputError::InputError;

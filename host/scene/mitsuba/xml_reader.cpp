@@ -59,7 +59,6 @@ private:
     void read_scene(const XmlFile& xml);
     void read_element(const Source& source, pugi::xml_node node, std::size_t parent, int nesting);
     void read_leaf(const Source& source, pugi::xml_node node, std::size_t parent);
-    void read_known_leaf(const Source& source, pugi::xml_node node, std::size_t parent);
     void read_child(const Source& source, pugi::xml_node node, std::size_t parent, int nesting);
     std::size_t read_object(const Source& source, pugi::xml_node node, int nesting);
     void read_parameter(const Source& source, pugi::xml_node node, std::size_t parent);
@@ -110,16 +109,6 @@ Document Reader::read(const XmlFile& xml, const LoadOptions& options) {
     return std::move(document_);
 }
 
-/// Leniently, one that is not known is left out.
-void Reader::read_known_leaf(const Source& source, pugi::xml_node node, std::size_t parent) {
-    try {
-        read_leaf(source, node, parent);
-    } catch (const NotKnown& unknown) {
-        if (!document_.lenient) throw;
-        document_.notes.push_back(std::string(unknown.what()) + ": left out");
-    }
-}
-
 /// What is wrong with one element is kept, and the next one read; only a file that is included, or
 /// what stands too deep, ends the reading.
 void Reader::read_element(const Source& source, pugi::xml_node node, std::size_t parent,
@@ -130,7 +119,7 @@ void Reader::read_element(const Source& source, pugi::xml_node node, std::size_t
     const std::string_view tag = node.name();
     const bool object = std::find(object_tags.begin(), object_tags.end(), tag) != object_tags.end();
     if (node.type() != pugi::node_element || (tag != "include" && !object && !is_plugin(node))) {
-        document_.problems.attempt([&] { read_known_leaf(source, node, parent); });
+        document_.problems.attempt([&] { read_leaf(source, node, parent); });
         return;
     }
     if (!document_.problems.attempt([&] { substitute(source, node); })) return;
@@ -178,7 +167,11 @@ void Reader::read_leaf(const Source& source, pugi::xml_node node, std::size_t pa
         read_default(source, node);
     else if (tag == "path")
         read_path(source, node, parent);
-    else
+    else if (document_.lenient && !is_value_tag(tag)) {
+        document_.notes.push_back(source.xml.location(node).to_string() + ": unknown element <" +
+                                  std::string(tag) + ">: left out");
+        return;
+    } else
         read_parameter(source, node, parent);
     if (tag != "transform") refuse_content(source.xml, node);
 }

@@ -260,9 +260,8 @@ Value read_value(const XmlFile& xml, pugi::xml_node node, const FileFinder& file
     std::string accepted;
     for (const ValueReader& reader : value_readers)
         accepted += std::string(reader.tag) + ", ";
-    throw NotKnown(xml.location(node).to_string() + ": unknown element <" + std::string(tag) +
-                   "> (accepted: " + accepted +
-                   "ref, include, alias, default, path, or the kind of a plugin)");
+    refuse(xml.location(node), "unknown element <" + std::string(tag) + "> (accepted: " + accepted +
+                                   "ref, include, alias, default, path, or the kind of a plugin)");
 }
 
 } // namespace parhelion::mitsuba
