@@ -102,14 +102,14 @@ Checks row_skies(StressRun& run) {
     Random random(run.seed);
     for (const SkyImage& image : images) {
         DeviceScene flat = make_device_scene(scene_under(image));
-        checks.push_back(
-            named("what is seen, to the largest texel and its slope: " + image.name,
-                  worst_radiance(image, flat, count, random).value(), 2e-7, "", count));
+        checks.push_back(named("what is seen, to the largest texel and its slope: " + image.name,
+                               worst_radiance(image, flat, count, random).value(), 2e-7, "",
+                               count));
         Draws draws = draw(image, flat, count, random);
         checks.push_back(named("density of a direction, and asked for again: " + image.name,
                                draws.density.value(), 5e-3, "", count));
-        checks.push_back(named("weight: radiance over density: " + image.name,
-                               draws.weight.value(), 5e-3, "", count));
+        checks.push_back(named("weight: radiance over density: " + image.name, draws.weight.value(),
+                               5e-3, "", count));
         Check drawn = named("chi-square over cells: " + image.name, draws.p,
                             sidak_level(0.01, images.size()), "p", count);
         drawn.at_least = true;

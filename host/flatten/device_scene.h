@@ -45,8 +45,8 @@ struct DeviceScene {
     LargeVector<int> texels;
     std::vector<float> byte_values; ///< BYTE_VALUES of them where there are texels of bytes
     std::vector<LightRecord> lights;
-    std::vector<int> light_textures;  ///< empty where no light has one
-    LightTree light_tree;             ///< empty where there is only one light
+    std::vector<int> light_textures; ///< empty where no light has one
+    LightTree light_tree;            ///< empty where there is only one light
     Environment environment;
     std::vector<float> energy_tables; ///< one behind the other; materials know their first
     std::vector<FilterBin> filter_table;
@@ -55,7 +55,7 @@ struct DeviceScene {
     BvhStatistics bvh_statistics;
     int camera_root = 0; ///< differs from root where emitters are hidden from the camera
     int root = 0;
-    int sky_light = -1;        ///< row of the light table
+    int sky_light = -1;             ///< row of the light table
     FeatureDecisions features;      ///< what the kernels must have, and why
     std::vector<std::string> notes; ///< what single precision makes of the scene that the user
                                     ///< should be told, one line each; beside Scene::notes

@@ -21,8 +21,8 @@ constexpr std::int64_t all_shares = std::int64_t{1} << 30;
 class Texels {
 public:
     Texels(const DeviceScene& records, const TextureRecord& image)
-        : image_(image), bytes_(std::as_bytes(std::span(records.texels)).subspan(
-                             4 * static_cast<std::size_t>(image.first))),
+        : image_(image), bytes_(std::as_bytes(std::span(records.texels))
+                                    .subspan(4 * static_cast<std::size_t>(image.first))),
           byte_values_(std::span(records.byte_values)
                            .subspan(image.form & TEXTURE_LINEAR && !records.byte_values.empty()
                                         ? BYTE_VALUES / 2
@@ -147,8 +147,7 @@ Environment make_environment(const DeviceScene& records, int texture) {
             cell_weights(upper, lower, row_weights(number, static_cast<int>(rows)));
         sums[row] = sum_of(weights);
         peaks[row] = std::max(upper.peak, lower.peak);
-        write_shares(weights, sums[row],
-                     shares.subspan(rows + 1 + row * (width + 1), width + 1));
+        write_shares(weights, sums[row], shares.subspan(rows + 1 + row * (width + 1), width + 1));
     });
     double total = sum_of(sums);
     write_shares(sums, total, shares.first(rows + 1));

@@ -68,8 +68,7 @@ SkyRadiance sky_seen(const DeviceScene& scene, const std::array<float, 3>& w) {
 SkyDirection sky_chosen(const DeviceScene& scene, std::uint32_t x, std::uint32_t y) {
     SkyKernels k(scene);
     Kernels::Random4 r{0, 0, x, y};
-    Kernels::EmitterSample s =
-        k.sky_chosen(k.tables, k.light, k.texture, r, Kernels::Mask{true});
+    Kernels::EmitterSample s = k.sky_chosen(k.tables, k.light, k.texture, r, Kernels::Mask{true});
     return {components(s.wi), components(s.weight), s.inverse_pdf};
 }
 

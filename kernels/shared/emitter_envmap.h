@@ -77,8 +77,8 @@ FN vec3 sky_bilinear(SkyCell c, Real along, Real down) {
 
 /// Density in solid angle of choosing that place of the cell.
 FN Real sky_density(SkyCell c, SkyPlace s, Int width, Int rows) {
-    Real mean = R(.25) * mean_component(add3(add3(c.near_first, c.near_next),
-                                             add3(c.far_first, c.far_next)));
+    Real mean = R(.25) * mean_component(
+                             add3(add3(c.near_first, c.near_next), add3(c.far_first, c.far_next)));
     Real there = mean_component(sky_bilinear(c, s.along, s.by_cosine));
     Real angle = polar_row(row_from_pole(s.row, rows), toReal(rows)).cosines * R(TWO_PI);
     Mask lit = mean > R(0.);
@@ -119,7 +119,7 @@ FN SkySample sky_sample(SkyCell c, Int column, Int row, Int width, Int rows, vec
     Real fallen = down * r.cosines, lost = 2.f * half_first.sine * half_first.sine + fallen;
     Real sine = sqrtR(R(.5) * lost), cosine = sqrt_nonnegative(R(1.) - R(.5) * lost);
     Real sum = sine * half_first.cosine + cosine * half_first.sine; // sine of (angle + first) / 2
-    Real halved = fallen / sel(sum > R(0.), 2.f * sum, R(1.));        // of (angle - first) / 2
+    Real halved = fallen / sel(sum > R(0.), 2.f * sum, R(1.));      // of (angle - first) / 2
     Real turned = atan2R(halved, sqrt_nonnegative(R(1.) - halved * halved)) * R(INV_TWO_PI);
     s.place.down = turned / r.reach;
     Real around = (toReal(column) + R(.5) + s.place.along) / toReal(width);

@@ -88,8 +88,7 @@
 // A surface that is several materials at once has a list of lobes, one behind the other: the share of each, of all before it, and how
 // many are behind it. Shares add up to 1. Each texture that tells of a share is a factor of it (0: none); `below` means nothing then.
 #define LOBE_FIELDS(X)                                                                             \
-    X(int, material) X(float, weight) X(float, below) X(int, behind)                               \
-    X(int, factor0) X(int, factor1) X(int, factor2) X(int, factor3)
+    X(int, material) X(float, weight) X(float, below) X(int, behind) X(int, factor0) X(int, factor1) X(int, factor2) X(int, factor3)
 #define LOBE_FACTORS 4
 // What texture `row` tells, or what that leaves of 1.
 #define LOBE_FACTOR(row, rest) ((rest) ? -1 - (row) : 1 + (row))
@@ -97,8 +96,7 @@
 // Of each material the rows of the textures that tell words of its record, where 1 stands; -1: none.
 #define MATERIAL_TEXTURES_FIELDS(X)                                                                \
     X(int, reflectance) X(int, transmittance)                                                      \
-    X(int, eta) X(int, k)                     /* of a conductor */                                 \
-    X(int, alpha_u) X(int, alpha_v)                                                                \
+    X(int, eta) X(int, k) X(int, alpha_u) X(int, alpha_v) /* eta, k: of a conductor */           \
     X(int, tilt) X(float, tilt_scale)         /* what tilts its normals: row << TILT_SHIFT | TILT_*; times this (normals: -1 below) */
 #define TILT_NORMALS 1 // its colours are normals, not heights
 #define TILT_FLIPS 2   // normals that would face away from the viewer are turned
@@ -111,8 +109,7 @@
 #define TEXTURE_FIELDS(X)                                                                          \
     X(int, form)                              /* TEXTURE_* below */                                \
     X(float, ux) X(float, uy) X(float, ut) X(float, vx) X(float, vy) X(float, vt)                  \
-    X(int, width) X(int, height) X(int, first)                                                     \
-    X(float, r0) X(float, g0) X(float, b0) X(float, r1) X(float, g1) X(float, b1)
+    X(int, width) X(int, height) X(int, first) X(float, r0) X(float, g0) X(float, b0) X(float, r1) X(float, g1) X(float, b1)
 
 #define TEXTURE_KIND(form) ((form) & 15)
 #define TEXTURE_NEAREST 16             // not interpolated
@@ -139,8 +136,7 @@
     X(float, ax) X(float, ay) X(float, az)                                                         \
     X(float, bx) X(float, by) X(float, bz)                                                         \
     X(float, cx) X(float, cy) X(float, cz)                                                         \
-    X(float, r) X(float, g) X(float, b)                                                            \
-    X(float, pmf) X(float, area) X(float, extra)
+    X(float, r) X(float, g) X(float, b) X(float, pmf) X(float, area) X(float, extra)
 
 // A node of the light tree: lights within a sphere, whose axes lie in a cone. Siblings stand side by side, the left one at an
 // even place; nodes 0 and 1 are the children of the root.
@@ -272,8 +268,7 @@ LAYOUT(CameraRecord, 120);
     X(int, replicate_bits)                    /* the pattern is 2^these */                          \
     X(int, max_depth)                         /* edges from the camera; INT_MAX without limit */    \
     X(int, rr_depth)                                                                               \
-    X(int, sky_light)                         /* row of the light around everything, -1: none */    \
-    X(int, sky_texture)                       /* row of its image, -1: none */                     \
+    X(int, sky_light) X(int, sky_texture)     /* rows of the light around everything and of its image, -1: none */ \
     X(int, sky_covers)                        /* 1: there is a sky, and it counts for alpha */       \
     X(int, filter_bins)                       /* of filter_table */                                 \
     X(int, filter_reach)                      /* pixels on each side that a sample counts for */    \

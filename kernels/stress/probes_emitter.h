@@ -38,6 +38,6 @@ FN ProbeOut probe_light_importance(ProbeIn i) {
 
 #define EMITTER_PROBES(name, ...) PROBE(name##_sample, "lpuu", 17) PROBE(name##_hit, "lpuu", 2)
 #define PROBES                                                                                     \
-    EMITTERS_BY_ROW(EMITTER_PROBES)                                                                       \
+    EMITTERS_BY_ROW(EMITTER_PROBES)                                                                \
     PROBE(any_emitter_sample, "lpuu", 17)                                                          \
     PROBE(any_emitter_hit, "lpuu", 4) PROBE(light_importance, "psdfsbbbbbbbpd", 2)
