@@ -48,7 +48,8 @@ struct Draws {
 };
 
 Draws draw(const SkyImage& image, const DeviceScene& flat, std::uint64_t count, Random& random) {
-    auto cells = static_cast<std::size_t>(image.width * (image.rows - 1));
+    const auto width = static_cast<std::size_t>(image.width);
+    const std::size_t cells = width * static_cast<std::size_t>(image.rows - 1);
     std::vector<double> observed(cells), expected(cells);
     double whole = 0;
     for (std::size_t cell = 0; cell < cells; cell++)
@@ -66,7 +67,7 @@ Draws draw(const SkyImage& image, const DeviceScene& flat, std::uint64_t count, 
         auto [turn, fall] = SkyImage::turn_and_fall(w);
         int column = int(std::floor(turn * image.width - 0.5) + image.width) % image.width;
         int row = std::min(int(fall * (image.rows - 1)), image.rows - 2);
-        observed[std::size_t(row * image.width + column)]++;
+        observed[std::size_t(row) * width + std::size_t(column)]++;
         // At the border of a cell rounding may take the direction into the next one.
         double s = turn * image.width + 0.5, t = fall * (image.rows - 1);
         if (std::min({s - std::floor(s), std::ceil(s) - s, t - std::floor(t), std::ceil(t) - t}) <

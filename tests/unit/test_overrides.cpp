@@ -176,7 +176,8 @@ TEST_CASE("Overrides: the command line, then the scene, then the default", "[ove
 }
 
 TEST_CASE("Overrides: no option that decides what a sample is goes untested", "[overrides]") {
-    std::set<std::string> tested{"--size", "--allow-outside"}; // above, and in the tests of files
+    // Above, and in the tests of files.
+    std::set<std::string> tested{"--size", "--allow-outside", "--lenient"};
     for (const Precedence& row : table())
         tested.insert(row.option);
     RenderCommand command;
