@@ -36,7 +36,8 @@ void change_rough(Scene& scene, Change change) {
 template<class Stays>
 void leave_lights(Scene& scene, Stays stays) {
     for (Shape& shape : scene.shapes)
-        if (shape.radiance && !stays(*shape.radiance)) shape.radiance = Rgb(0);
+        if (shape.radiance && !stays(*shape.radiance))
+            shape.radiance = Rgb(0), shape.radiance_texture = {};
     std::erase_if(scene.emitters, [&](const Emitter& e) {
         auto power = [](const auto& x) {
             if constexpr (requires { x.intensity; })
@@ -157,8 +158,12 @@ inline void set_textured_blends(Setup& s, bool on) {
     }
 }
 inline void set_textured_lights(Setup& s, bool on) {
-    for (Shape& shape : s.scene.shapes)
-        if (on && shape.radiance) shape.radiance_texture = example_checkerboard().texture;
+    for (Shape& shape : s.scene.shapes) {
+        if (!on || !shape.radiance) continue;
+        const Rgb radiance = *shape.radiance; // all over the board, so that what shows is known
+        shape.radiance_texture =
+            textured(Texture{"", glm::dmat3(1), CheckerboardTexture{radiance, radiance}}).texture;
+    }
 }
 inline void set_ggx(Setup& s, bool on) {
     if (on) return;
