@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace parhelion::mitsuba {
 
 namespace {
@@ -128,11 +126,6 @@ using IntegratorReader = Integrator (*)(const IntegratorInput&);
 constexpr PluginTable<IntegratorReader, 6> integrator_plugins = {
     {INTEGRATORS(PLUGIN){"moment", read_moment}}};
 
-bool is_known(const Object& object) {
-    return std::any_of(integrator_plugins.begin(), integrator_plugins.end(),
-                       [&](const auto& entry) { return entry.name == object.plugin; });
-}
-
 /// Of another program's, where the caller brings an integrator: what `path` has too.
 Integrator read_foreign(const Document& document, const Object& object, Notes& notes) {
     Object path{"integrator", "path", object.id, object.location, {}, {}};
@@ -155,7 +148,8 @@ Integrator read_foreign(const Document& document, const Object& object, Notes& n
 } // namespace
 
 Integrator read_integrator(const Document& document, const Object& object, Notes& notes) {
-    if (document.own_integrator && !is_known(object)) return read_foreign(document, object, notes);
+    if (document.own_integrator && !has_plugin(integrator_plugins, object.plugin))
+        return read_foreign(document, object, notes);
     const auto kin = kin_outside(integrator_plugins, document, object, notes);
     const Object& known = kin ? *kin : object;
     Properties p(document, known, notes);

@@ -23,23 +23,17 @@ constexpr std::array<Kin, 5> kin_of_tags = {{{"integrator", "path"},
                                              {"rfilter", "gaussian"}}};
 
 /// Bsdfs of Mitsuba 0.x, of Mitsuba 3 and of its forks that have a nearer kin than `diffuse`.
-constexpr std::array<Kin, 17> kin_of_bsdfs = {{{"phong", "roughplastic"},
+constexpr std::array<Kin, 11> kin_of_bsdfs = {{{"phong", "roughplastic"},
                                                {"ward", "roughplastic"},
                                                {"principled", "roughplastic"},
                                                {"principledthin", "roughplastic"},
                                                {"disneybsdf", "roughplastic"},
-                                               {"disneydiffuse", "diffuse"},
                                                {"disneymetal", "roughconductor"},
                                                {"disneyglass", "roughdielectric"},
                                                {"pplastic", "plastic"},
                                                {"polarizer", "null"},
                                                {"retarder", "null"},
-                                               {"circular", "null"},
-                                               {"coating", "held"},
-                                               {"roughcoating", "held"},
-                                               {"mixturebsdf", "held"},
-                                               {"bump", "held"},
-                                               {"normal", "held"}}};
+                                               {"circular", "null"}}};
 
 /// Names of the same thing in other plugins; the first that a plugin has is taken.
 struct Synonyms {
@@ -187,9 +181,7 @@ std::optional<Object> nearest_kin(const Document& document, const Object& object
     }
     const std::optional<std::string_view> name = kin_name(object);
     if (!name) return std::nullopt;
-    Object kin{object.tag, std::string(*name == "held" ? "diffuse" : *name),
-               object.id,  object.location,
-               {},         {}};
+    Object kin{object.tag, std::string(*name), object.id, object.location, {}, {}};
     const std::vector<std::string> taken = take_parameters(object, kin);
     for (const Child& child : object.children) {
         const std::string& tag = document.objects[child.object].tag;

@@ -3,7 +3,6 @@
 
 #include "host/scene/mitsuba/plugin_table.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,8 +18,7 @@ std::optional<Object> nearest_kin(const Document& document, const Object& object
 template<typename Table>
 std::optional<Object> same_in_lower_case(const Table& table, const Object& object) {
     const std::string name = lower_case(object.plugin);
-    const auto same = [&](const auto& entry) { return entry.name == name; };
-    if (std::none_of(table.begin(), table.end(), same)) return std::nullopt;
+    if (!has_plugin(table, name)) return std::nullopt;
     Object known = object;
     known.plugin = name;
     return known;
@@ -30,8 +28,7 @@ std::optional<Object> same_in_lower_case(const Table& table, const Object& objec
 template<typename Table>
 std::optional<Object> kin_outside(const Table& table, const Document& document,
                                   const Object& object, std::vector<std::string>& notes) {
-    const auto same = [&](const auto& entry) { return entry.name == object.plugin; };
-    if (!document.lenient || std::any_of(table.begin(), table.end(), same)) return std::nullopt;
+    if (!document.lenient || has_plugin(table, object.plugin)) return std::nullopt;
     if (auto known = same_in_lower_case(table, object)) return known;
     return nearest_kin(document, object, notes);
 }

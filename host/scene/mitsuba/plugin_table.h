@@ -4,6 +4,7 @@
 #include "host/scene/mitsuba/document.h"
 #include "host/scene/text.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
@@ -18,6 +19,12 @@ struct PluginEntry {
 
 template<typename Read, std::size_t N>
 using PluginTable = std::array<PluginEntry<Read>, N>;
+
+template<typename Table>
+bool has_plugin(const Table& table, std::string_view name) {
+    return std::any_of(table.begin(), table.end(),
+                       [&](const auto& entry) { return entry.name == name; });
+}
 
 /// The table's reader of `object`; throws NotKnown naming the plugin and all that are accepted.
 template<typename Read, std::size_t N>

@@ -4,8 +4,6 @@
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/properties.h"
 
-#include <algorithm>
-
 namespace parhelion::mitsuba {
 
 namespace {
@@ -79,10 +77,7 @@ TexelSource read_image(Properties& p, std::string_view name) {
     }
 }
 
-bool is_known_texture(const Object& object) {
-    return std::any_of(texture_plugins.begin(), texture_plugins.end(),
-                       [&](const auto& entry) { return entry.name == object.plugin; });
-}
+bool is_known_texture(const Object& object) { return has_plugin(texture_plugins, object.plugin); }
 
 double luminance(const Rgb& color) {
     return 0.212671 * color.r + 0.715160 * color.g + 0.072169 * color.b;
