@@ -127,6 +127,46 @@ FunctionTest visible_normals() {
             .place = log10_alpha};
 }
 
+/// c erfc(-x) + s exp(-x^2) / sqrt(pi): of the slopes that a view of the cosine c and the sine s
+/// sees, those below x.
+Long slopes_below(Long x, Long c, Long s) { return c * erfcl(-x) + s * expl(-x * x) / sqrtl(pi); }
+
+/// How far the shares below the slopes of the normal `h` are from 1 - u, along the view and across
+/// it: the mapping is the inverse of the distribution.
+Long off_shares(const float* in, const float* h) {
+    Long x = Long(in[3]) * in[0], y = Long(in[4]) * in[1], r = hypotl(x, y),
+         length = hypotl(r, in[2]);
+    Long c = in[2] / length, s = r / length;
+    Long cosine = r > 0 ? x / r : 1, sine = r > 0 ? y / r : 0;
+    Long slope_x = -Long(h[0]) / in[3] / h[2], slope_y = -Long(h[1]) / in[4] / h[2];
+    Long along = slope_x * cosine + slope_y * sine, across = slope_y * cosine - slope_x * sine;
+    Long edge = s > 0 ? c / s : 1e3L;
+    Long share = along < edge ? slopes_below(along, c, s) / slopes_below(edge, c, s) : 1;
+    return fmaxl(fabsl(share - (1 - Long(in[5]))), fabsl(erfcl(-across) / 2 - (1 - Long(in[6]))));
+}
+
+FunctionTest visible_normals_of_beckmann() {
+    FunctionTest test = visible_normals();
+    test.probe = "beckmann_sample_visible";
+    test.measures.push_back({"share of normals below it", "", 1e-6});
+    test.measures.push_back({"density over 1 + exponent", "ulp", 16});
+    test.measures.push_back({"masking over exact masking", "ulp", 16});
+    test.judge = [](const float* in, const float* out, double* errors) {
+        Long x = out[0], y = out[1], z = out[2];
+        errors[0] = static_cast<double>(fabsl(sqrtl(x * x + y * y + z * z) - 1) / 0x1p-23L);
+        errors[1] = !(z > 0);
+        errors[2] = static_cast<double>(off_shares(in, out));
+        Long sx = Long(in[3]) * in[0], sy = Long(in[4]) * in[1], r = hypotl(sx, sy), a = in[2] / r;
+        Long whole = r > 0 ? in[2] * erfcl(-a) + r * expl(-a * a) / sqrtl(pi) : 2 * Long(in[2]);
+        Long t = stretched_square(out, in + 3) / (z * z);
+        Long d = expl(-t) / (pi * Long(in[3]) * in[4] * z * z * z * z);
+        errors[3] = t < 80 ? ulps(out[3], 2 * d / whole) / static_cast<double>(1 + t) : not_asked;
+        Long g = a < 1.6L ? a * (3.535L + 2.181L * a) / (1 + a * (2.276L + 2.577L * a)) : 1;
+        errors[4] = fabsl(a - 1.6L) < 1e-5L ? not_asked : ulps(out[4], g * whole / (2 * in[2]));
+    };
+    return test;
+}
+
 FunctionTest heuristic() {
     return {.group = "maths",
             .probe = "power_heuristic",
@@ -162,7 +202,7 @@ FunctionTest heuristic() {
 } // namespace
 
 std::vector<FunctionTest> microfacet_functions() {
-    return {ggx(), beckmann(), visible_normals(), heuristic()};
+    return {ggx(), beckmann(), visible_normals(), visible_normals_of_beckmann(), heuristic()};
 }
 
 } // namespace parhelion::stress

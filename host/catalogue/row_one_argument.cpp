@@ -52,6 +52,18 @@ double arc_cosine(double x) {
     return std::fabs(x) < 0x1p-9 ? M_PI / 2 - x - x * x * x / 6 - x * x * x * x * x * 3 / 40
                                  : std::acos(x);
 }
+/// erfc(y) exp(y^2); beyond 25 by Abramowitz and Stegun 7.1.23.
+double scaled_complement(double y) {
+    double s = 1 / (2 * y * y);
+    return y < 25 ? std::erfc(y) * std::exp(y * y)
+                  : 1 / (y * std::sqrt(M_PI)) * (1 - s * (1 - 3 * s * (1 - 5 * s)));
+}
+/// How far x is off the point that the share t of a Gaussian is below: a step of Newton's, whose
+/// own error is the square of that.
+double off_quantile(double t, double x) {
+    double share = x < 0 ? std::erfc(-x) - 2 * t : 2 * (1 - t) - std::erfc(x);
+    return share * std::sqrt(M_PI) / 2 * std::exp(x * x);
+}
 
 // By the names in the list; absolute where the result is an angle or a coordinate.
 
@@ -69,6 +81,22 @@ constexpr Accuracy accuracy_of_exp_negative{"relative", 2e-7, [](std::uint32_t b
 constexpr Accuracy accuracy_of_acos{"radians", 4e-7, [](std::uint32_t bits, float y) {
                                         return std::fabs(double(y) - arc_cosine(argument(bits)));
                                     }};
+double relative_error(double found, double truth) {
+    return found == truth ? 0 : std::fabs(found / truth - 1);
+}
+constexpr Accuracy accuracy_of_log_unit{"relative", 3e-7, [](std::uint32_t bits, float y) {
+                                            return relative_error(y,
+                                                                  std::log(double(argument(bits))));
+                                        }};
+constexpr Accuracy accuracy_of_scaled_erfc{"relative", 6e-7, [](std::uint32_t bits, float y) {
+                                               return relative_error(
+                                                   y, scaled_complement(argument(bits)));
+                                           }};
+constexpr Accuracy accuracy_of_gaussian_quantile{
+    "relative", 6e-7, [](std::uint32_t bits, float y) {
+        double off = std::fabs(off_quantile(argument(bits), y));
+        return off > 0 ? off / std::fabs(double(y)) : 0;
+    }};
 /// Exact, and so never 1.
 constexpr Accuracy accuracy_of_uniform01{
     "", 0, [](std::uint32_t bits, float y) {

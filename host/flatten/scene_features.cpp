@@ -34,6 +34,7 @@ constexpr std::size_t primitives_for_packets = 500'000;
 constexpr int no_limit = std::numeric_limits<int>::max(); // of a path's edges
 
 bool is_beckmann(const MaterialRecord& m) { return is_rough(m) && (m.distribution & 1); }
+bool is_ggx(const MaterialRecord& m) { return is_rough(m) && !(m.distribution & 1); }
 bool is_matte(const MaterialRecord& m) { return (MATTE_MATERIALS >> m.kind) & 1; }
 bool is_opaque(const MaterialRecord& m) { return (OPAQUE_MATERIALS >> m.kind) & 1; }
 bool lets_through(const MaterialRecord& m) { return (PASSING_MATERIALS >> m.kind) & 1; }
@@ -43,8 +44,7 @@ void decide_materials(const DeviceScene& records, FeatureDecisions& out) {
     const auto& materials = records.materials;
     decide_kinds(out, material_features, materials, "materials",
                  [](const MaterialRecord& m) { return m.kind; });
-    // GGX is always there: Beckmann is sampled by its visible normals.
-    decide_by_count(out, feature_ggx, materials, "materials rough", is_rough);
+    decide_by_count(out, feature_ggx, materials, "materials", is_ggx);
     decide_by_count(out, feature_beckmann, materials, "materials", is_beckmann);
     out.decide(feature_anisotropy, has_anisotropic(records),
                fmt::format("{} of {} materials", count_anisotropic(records), materials.size()));

@@ -14,8 +14,21 @@
 namespace parhelion {
 namespace {
 
+struct Normal {
+    f64::vec3 h;
+    double weight;
+};
+
+/// Drawn by the visible normals of GGX, Beckmann's too: an integrand of u and v as smooth as its.
+Normal normal_at(const f64::Material& m, f64::vec3 wo, double u, double v) {
+    f64::vec3 h = f64::ggx_sample_visible(wo, m.alpha_u, m.alpha_v, {u, v});
+    if (!f64::is_beckmann(m)) return {h, 1.0};
+    return {h,
+            f64::microfacet_visible_d(m, wo, h) / f64::ggx_visible_d(wo, h, m.alpha_u, m.alpha_v)};
+}
+
 double share_sent_on(const RoughSide& side, f64::vec3 wo, double u, double v) {
-    f64::NormalSample n = f64::microfacet_sample(side.material, wo, {u, v});
+    Normal n = normal_at(side.material, wo, u, v);
     double cosine = f64::dot3(wo, n.h);
     if (!(cosine > 0.0)) return 0.0;
     f64::vec3 reflected = f64::reflect_about(wo, n.h);

@@ -156,8 +156,8 @@ private:
     void begin_vertex(int depth);
     /// Where there is no surface, and light that was sampled before goes through.
     bool goes_on_as_it_was(const TraceVertex& v) const {
-        return launch_.features.has(feature_clear_shadows) &&
-               scene_.materials[v.material].kind == material_null;
+        return launch_.features.has(feature_clear_shadows) && v.material >= 0 &&
+               scene_.materials[static_cast<std::size_t>(v.material)].kind == material_null;
     }
     void shade(TraceVertex& v);
     void add_up();

@@ -176,6 +176,8 @@ FN Real powerOfTwoBelow(Real x) { return asReal(asUint(x) & 0x7f800000u); }
 #define finiteR(x) ((asUint(x) & 0x7f800000u) != 0x7f800000u)
 /// x * 2^n, where neither x nor the result is zero, denormal or infinite.
 FN Real scale_by_power_of_two(Real x, Int n) { return asReal(asInt(x) + n * 8388608); }
+/// n with x 2^-n in [sqrt(1/2), sqrt(2)); x > 0, normal and finite.
+FN Int nearestPowerOfTwo(Real x) { return (asInt(x) - 0x3f3504f3) >> 23; }
 
 #else
 // ------------------------------------------------------------------------------------------------------
@@ -208,6 +210,10 @@ FN Real absR(Real a) { return std::fabs(a); }
 FN Real copysignR(Real a, Real b) { return std::copysign(a, b); }
 FN Mask finiteR(Real x) { return std::isfinite(x); }
 FN Real scale_by_power_of_two(Real x, Int n) { return std::ldexp(x, n); }
+FN Int nearestPowerOfTwo(Real x) {
+    Int below = std::ilogb(x);
+    return below + (std::ldexp(x, -below) >= R(1.41421354));
+}
 FN Mask signsDiffer(Real a, Real b) { return std::signbit(a) != std::signbit(b); }
 FN Real flipSign(Real a, Real b) { return std::signbit(b) ? -a : a; }
 FN Real powerOfTwoBelow(Real x) {

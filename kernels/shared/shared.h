@@ -10,6 +10,7 @@
 #include "shared/draws.h"
 #include "shared/sampler.h"
 
+#include "shared/error_function.h"
 #include "shared/faure.h"
 #include "shared/film_sum.h"
 #include "shared/fresnel.h"
@@ -23,8 +24,12 @@
 #include "shared/tilt.h"
 #include "shared/warp.h"
 
-#include "shared/microfacet.h"
+#include "shared/microfacet_ggx.h"
 #include "shared/surface.h"
+
+#include "shared/microfacet_beckmann.h"
+
+#include "shared/microfacet.h"
 
 #include "shared/bsdf_types.h"
 #include "shared/emitter_types.h"

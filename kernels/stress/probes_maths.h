@@ -93,6 +93,13 @@ FN ProbeOut probe_ggx_sample_visible(ProbeIn i) {
     wo.z = absR(wo.z);
     return out3(ggx_sample_visible(wo, i.w[3], i.w[4], in2(i, 5)));
 }
+FN ProbeOut probe_beckmann_sample_visible(ProbeIn i) {
+    vec3 wo = in3(i, 0);
+    wo.z = absR(wo.z);
+    vec3 h = beckmann_sample_visible(wo, i.w[3], i.w[4], in2(i, 5));
+    ProbeOut o = put1(out3(h), 3, beckmann_sample_visible_d(wo, h, i.w[3], i.w[4]));
+    return put1(o, 4, beckmann_masking_ratio(wo, i.w[3], i.w[4]));
+}
 FN ProbeOut probe_power_heuristic(ProbeIn i) {
     return out3(v3(power_heuristic(i.w[0], i.w[1]), power_heuristic_inverse(i.w[0], i.w[1]),
                    power_heuristic(i.w[1], i.w[0])));
@@ -117,5 +124,6 @@ FN ProbeOut probe_russian_roulette(ProbeIn i) {
                         PROBE(fresnel_dielectric, "ci", 3) PROBE(fresnel_conductor, "css", 1)      \
                             PROBE(ggx, "daad", 3) PROBE(beckmann, "daa", 2)                         \
                                 PROBE(ggx_sample_visible, "daauu", 3)                              \
+                                PROBE(beckmann_sample_visible, "daauu", 5)                         \
                                     PROBE(power_heuristic, "rr", 3)                                \
                                         PROBE(russian_roulette, "rrrcu", 2)

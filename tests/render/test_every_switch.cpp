@@ -2,6 +2,7 @@
 // different ones of every light, material and shape: what is seen of a light is its own radiance,
 // and an image of all lights is the sum of the images of each.
 #include "tests/support/every_switch.h"
+#include "tests/support/every_two.h"
 #include "tests/support/host_render.h"
 #include "tests/support/render_scene.h"
 
@@ -136,26 +137,43 @@ TEST_CASE("Every feature has a switch that turns it off and on", "[every switch]
 
 TEST_CASE("What is seen of each light is its radiance, with every switch and every two",
           "[every switch]") {
-    std::vector<State> states = every_state();
-    std::size_t pairs = 0;
-    for (std::size_t a = 0; a < states.size(); a++)
-        for (std::size_t b = a; b < states.size(); b++) {
-            Setup setup = panel_setup();
-            states[a].set(setup);
-            states[b].set(setup);
-            CAPTURE(states[a].name, states[b].name);
-            RenderResult single =
-                host_render(setup.scene, Precision::single_precision, setup.options);
-            REQUIRE(panel_error(setup.scene, single.image) < panel_tolerance);
-            if (a == b) {
-                Image twice =
-                    host_render(setup.scene, Precision::double_precision, setup.options).image;
-                REQUIRE(panel_error(setup.scene, twice) < panel_tolerance);
-            }
-            pairs++;
-        }
-    CHECK(pairs == states.size() * (states.size() + 1) / 2);
-    WARN(pairs << " pairs of " << states.size() << " states");
+    const std::vector<State> states = every_state();
+    auto exclude = [&](std::size_t a, std::size_t b) { return states[a].of == states[b].of; };
+    auto check = [&](const Group& group, Precision precision) {
+        Setup setup = panel_setup();
+        std::string names;
+        for (std::size_t state : group)
+            states[state].set(setup), names += states[state].name + "; ";
+        CAPTURE(names);
+        Image image = host_render(setup.scene, precision, setup.options).image;
+        REQUIRE(panel_error(setup.scene, image) < panel_tolerance);
+    };
+    for (std::size_t state = 0; state < states.size(); state++)
+        for (Precision p : {Precision::single_precision, Precision::double_precision})
+            check({state}, p);
+    // Each time among two others: of more, some would too often hide what another does.
+    std::vector<Group> groups = groups_of_every_two(states.size(), 4, exclude);
+    for (const Group& group : groups)
+        check(group, Precision::single_precision);
+    WARN(states.size() << " states, every two of them in " << groups.size() << " groups");
+}
+
+TEST_CASE("Every two of many are together in some group, and none that exclude each other",
+          "[every switch]") {
+    for (std::size_t size : {2, 3, 4, 7}) {
+        const std::size_t count = 30;
+        auto exclude = [](std::size_t a, std::size_t b) { return a / 3 == b / 3; };
+        std::vector<std::vector<int>> met(count, std::vector<int>(count));
+        std::vector<Group> groups = groups_of_every_two(count, size, exclude);
+        for (const Group& group : groups)
+            for (std::size_t a : group)
+                for (std::size_t b : group)
+                    met[a][b]++;
+        for (std::size_t a = 0; a < count; a++)
+            for (std::size_t b = 0; b < count; b++)
+                if (a != b) CHECK((met[a][b] > 0) == !exclude(a, b));
+        CHECK((size > 2 || groups.size() == count * (count - 3) / 2));
+    }
 }
 
 TEST_CASE("An image of all lights is the sum of the images of each, with every switch",

@@ -306,15 +306,18 @@ inline constexpr std::array feature_switches{OTHER_FEATURES(FEATURE_SWITCH)};
 struct State {
     std::string name;
     std::function<void(Setup&)> set;
+    std::string of; ///< two states of one thing exclude each other
 };
 
 inline State integrator_state(const char* name, IntegratorKind kind, int max_depth,
                               int strategies) {
-    return {name, [=](Setup& s) {
+    return {name,
+            [=](Setup& s) {
                 Integrator& i = s.scene.integrator;
                 i.kind = kind, i.max_depth = max_depth;
                 i.emitter_samples = strategies & 1, i.bsdf_samples = strategies & 2;
-            }};
+            },
+            "integrator"};
 }
 
 /// Both of every feature, and one of everything else.
@@ -323,12 +326,12 @@ inline std::vector<State> every_state() {
     for (const Switch& s : feature_switches)
         for (bool on : {false, true})
             states.push_back({std::string(s.name) + (on ? " on" : " off"),
-                              [&s, on](Setup& setup) { s.set(setup, on); }});
+                              [&s, on](Setup& setup) { s.set(setup, on); }, s.name});
 #define AOV_STATE(name, channels, suffixes)                                                        \
-    states.push_back({"aov " #name, [](Setup& s) { ask_aov(s, #name); }});
+    states.push_back({"aov " #name, [](Setup& s) { ask_aov(s, #name); }, "aov " #name});
     AOVS(AOV_STATE)
     FILM_AOVS(AOV_STATE)
-    states.push_back({"a sky of an image", [](Setup& s) { put_example_sky(s.scene); }});
+    states.push_back({"a sky of an image", [](Setup& s) { put_example_sky(s.scene); }, "sky"});
     states.push_back(integrator_state("path 1", IntegratorKind::path, 1, 3));
     states.push_back(integrator_state("path 2", IntegratorKind::path, 2, 3));
     states.push_back(integrator_state("path without end", IntegratorKind::path, -1, 3));
