@@ -129,6 +129,31 @@ TEST_CASE("Blends: a share given as a colour is the mean of its channels", "[ble
     CHECK(shares(missing, false) == std::map<int, double>{{0, 0.5}, {1, 0.5}});
 }
 
+TEST_CASE("Blends: filters without polarisation are grey sheets, as in Mitsuba's RGB mode",
+          "[blends]") {
+    auto passes = [](const std::string& plugin, const std::string& inside) {
+        DeviceScene flat = make_device_scene(
+            load_body(shape("<bsdf type=\"" + plugin + "\">" + inside + "</bsdf>")));
+        CHECK((shares(flat, false) == shares(flat, true)));
+        for (const auto& [material, share] : shares(flat, false))
+            if (flat.materials[static_cast<std::size_t>(material)].kind == material_null)
+                return share;
+        return 0.0;
+    };
+    // What its `sample` gives the direction straight on in Mitsuba 3.9.1 (scalar_rgb).
+    std::string half =
+        R"(<spectrum name="transmittance" value="0.5"/><float name="theta" value="30"/>)";
+    CHECK(passes("polarizer", "") == 0.5);
+    CHECK(passes("polarizer", half) == 0.25);
+    CHECK(passes("polarizer", "<boolean name=\"polarizing\" value=\"false\"/>") == 0.5);
+    CHECK(passes("circular", half) == 0.25);
+    CHECK(passes("retarder", half) == 0.5);
+    CHECK(passes("retarder", "") == 1);
+    std::string colour = R"(<rgb name="transmittance" value="0.2,0.5,0.8"/>)";
+    CHECK_THAT(refusal_of_body(shape("<bsdf type=\"polarizer\">" + colour + "</bsdf>")),
+               Catch::Matchers::Contains("\"transmittance\" is a colour (accepted: a grey)"));
+}
+
 TEST_CASE("Blends: refusals", "[blends]") {
     auto refusal = [](const std::string& bsdf) { return refusal_of_body(shape(bsdf)); };
     using Catch::Matchers::Contains;

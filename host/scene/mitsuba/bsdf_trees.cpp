@@ -112,6 +112,39 @@ SurfaceMaterials read_mask(Reading& r) {
     return blended(r, opacity, {nothing, nothing}, nested);
 }
 
+/// Without polarisation a filter is a grey sheet, whatever its angles: the share `passes` of its
+/// transmittance goes straight on, the rest is absorbed.
+SurfaceMaterials read_filter(Reading& r, double passes) {
+    r.p.color("theta", Rgb(0.0), SpectrumUse::reflectance);
+    const Rgb transmittance = r.p.color("transmittance", Rgb(1.0), SpectrumUse::reflectance);
+    r.p.finish();
+    if (transmittance.r != transmittance.g || transmittance.r != transmittance.b)
+        r.p.refuse_value("transmittance", "a colour", "a grey");
+    const int sheet =
+        add_blend(r.scene, {1.0 - passes * transmittance.r, add_nothing(r.scene), no_material});
+    return {sheet, sheet};
+}
+
+SurfaceMaterials read_polarizer(Reading& r) {
+    r.p.boolean("polarizing", true);
+    return read_filter(r, 0.5);
+}
+SurfaceMaterials read_circular(Reading& r) {
+    r.p.boolean("left_handed", false);
+    return read_filter(r, 0.5);
+}
+SurfaceMaterials read_retarder(Reading& r) {
+    r.p.number("delta", 90.0);
+    return read_filter(r, 1.0);
+}
+
+SurfaceMaterials read_pplastic(Reading& r) {
+    r.notes.push_back(r.p.title() +
+                      " is read as \"roughplastic\": nothing is polarised, and its matte "
+                      "base is up to a quarter darker");
+    return read_material<mitsuba::read_roughplastic>(r);
+}
+
 /// What is made of `code`, tilted: the materials themselves, and copies of those that stand on both
 /// sides where those differ. What is opaque is turned over to be seen from below, and its tilt too.
 int tilted(Scene& scene, int code, const Tilt& tilt, bool below) {
@@ -191,13 +224,15 @@ SurfaceMaterials tilted_or_held(Reading& r, SurfaceMaterials (*read)(Reading&)) 
 SurfaceMaterials read_bumpmap(Reading& r) { return tilted_or_held(r, tilted_by_heights); }
 SurfaceMaterials read_normalmap(Reading& r) { return tilted_or_held(r, tilted_by_normals); }
 
-#define NESTING_BSDFS(X) X(twosided) X(mask) X(blendbsdf) X(bumpmap) X(normalmap)
+#define OTHER_BSDFS(X)                                                                             \
+    X(twosided)                                                                                    \
+    X(mask) X(blendbsdf) X(bumpmap) X(normalmap) X(polarizer) X(circular) X(retarder) X(pplastic)
 
 SurfaceMaterials read_surface(Reading&& r) {
     using BsdfReader = SurfaceMaterials (*)(Reading&);
 #define MATERIAL_PLUGIN(name, ...) PluginEntry<BsdfReader>{#name, read_material<read_##name>},
-#define NESTING_PLUGIN(name) PluginEntry<BsdfReader>{#name, read_##name},
-    static constexpr std::array plugins{MATERIALS(MATERIAL_PLUGIN) NESTING_BSDFS(NESTING_PLUGIN)};
+#define OTHER_PLUGIN(name) PluginEntry<BsdfReader>{#name, read_##name},
+    static constexpr std::array plugins{MATERIALS(MATERIAL_PLUGIN) OTHER_BSDFS(OTHER_PLUGIN)};
     // What takes the place of an unknown one can be unknown as well: what that one holds.
     if (const auto kin = kin_outside(plugins, r.document, r.object, r.notes))
         return read_surface({r.document, *kin, r.id, r.scene, r.notes});

@@ -23,17 +23,13 @@ constexpr std::array<Kin, 5> kin_of_tags = {{{"integrator", "path"},
                                              {"rfilter", "gaussian"}}};
 
 /// Bsdfs of Mitsuba 0.x, of Mitsuba 3 and of its forks that have a nearer kin than `diffuse`.
-constexpr std::array<Kin, 11> kin_of_bsdfs = {{{"phong", "roughplastic"},
-                                               {"ward", "roughplastic"},
-                                               {"principled", "roughplastic"},
-                                               {"principledthin", "roughplastic"},
-                                               {"disneybsdf", "roughplastic"},
-                                               {"disneymetal", "roughconductor"},
-                                               {"disneyglass", "roughdielectric"},
-                                               {"pplastic", "plastic"},
-                                               {"polarizer", "null"},
-                                               {"retarder", "null"},
-                                               {"circular", "null"}}};
+constexpr std::array<Kin, 7> kin_of_bsdfs = {{{"phong", "roughplastic"},
+                                              {"ward", "roughplastic"},
+                                              {"principled", "roughplastic"},
+                                              {"principledthin", "roughplastic"},
+                                              {"disneybsdf", "roughplastic"},
+                                              {"disneymetal", "roughconductor"},
+                                              {"disneyglass", "roughdielectric"}}};
 
 /// Names of the same thing in other plugins; the first that a plugin has is taken.
 struct Synonyms {

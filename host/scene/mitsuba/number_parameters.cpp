@@ -109,6 +109,9 @@ std::vector<NumberParameter> material_parameters() {
 const NumberParameter other_parameters[] = {
     {"bsdf", "mask", "opacity", color, share},
     {"bsdf", "blendbsdf", "weight", color, share},
+    {"bsdf", "polarizer circular retarder", "transmittance", color, share, "a grey"},
+    {"bsdf", "polarizer circular retarder", "theta", color, any_number().in("degrees")},
+    {"bsdf", "retarder", "delta", real, any_number().in("degrees")},
     {"bsdf", "bumpmap", "scale", real, between(-1e20, 1e20)},
 
     {"emitter", "area constant", "radiance", color, radiometric, power},
