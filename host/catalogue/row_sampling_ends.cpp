@@ -125,6 +125,10 @@ f32::Light light_of(int kind, double size, vec3 n, double side) {
         set_b(n);
         l.cx = std::cos(0.5f), l.cy = 0.5f, l.cz = 1 / 0.2f, l.extra = std::cos(0.3f);
         break;
+    case emitter_projector:
+        set_b(n), set_c(f32::scale3(perpendicular(n, 0), 0.3f));
+        l.extra = static_cast<float>(side);
+        break;
     case emitter_directional:
         set_b(n);
         break;

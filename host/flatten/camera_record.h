@@ -6,10 +6,6 @@
 
 namespace parhelion {
 
-/// Full horizontal angle of view in radians, from whichever of angle and focal length the scene
-/// gives.
-double horizontal_fov(const Camera& camera, int width, int height);
-
 CameraRecord camera_record(const Camera& camera, int width, int height, const SceneFrame& frame);
 
 } // namespace parhelion

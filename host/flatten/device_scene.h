@@ -40,6 +40,7 @@ struct DeviceScene {
     std::vector<MaterialTexturesRecord> material_textures; ///< a row a material
     std::vector<int> blend_textures;    ///< of the scene's blends: row of their weight; -1: none
     std::vector<int> radiance_textures; ///< of the scene's shapes, likewise
+    std::vector<int> emitter_textures;  ///< of what its emitters shine through, likewise
     std::vector<Rgb> texture_means;     ///< of `textures`, where some light has one
     std::vector<TextureRecord> textures;
     LargeVector<int> texels;

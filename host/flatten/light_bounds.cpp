@@ -4,7 +4,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <cmath>
 #include <initializer_list>
+#include <numbers>
 
 namespace parhelion {
 namespace {
@@ -28,6 +30,16 @@ void set_everywhere(LightBounds& b, double intensity) {
     b.cos_spread = -1.0;
     b.cos_emission = beyond_quarter_turn;
     b.intensity = intensity;
+}
+
+/// As bright all over its frame as on average.
+void set_frame(LightBounds& b, const LightRow& row) {
+    double half = 0.5 / glm::length(row.c), other = half / std::fabs(row.extra);
+    double seen = 4.0 * std::asin(half * other / (std::hypot(1.0, half) * std::hypot(1.0, other)));
+    b.axis = row.b;
+    b.cos_spread = 1.0 / std::hypot(1.0, std::hypot(half, other));
+    b.cos_emission = at_once;
+    b.intensity = b.power / seen;
 }
 
 } // namespace
@@ -76,6 +88,10 @@ LightBounds light_bounds(const LightRow& row) {
         bounds.cos_spread = c.x;
         bounds.cos_emission = at_once;
         bounds.intensity = bright;
+        break;
+    case emitter_projector:
+        set_box(bounds, {a});
+        set_frame(bounds, row);
         break;
     default:
         bounds.distant = true;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -17,15 +18,14 @@
 namespace parhelion {
 namespace {
 
-/// `told`: what a texture's values are multiplied by.
-LightRecord light_record(const LightRow& row, double pmf, double told) {
+LightRecord light_record(const LightRow& row, double pmf) {
     auto single = [](double v) { return static_cast<float>(v); };
     LightRecord l{};
     l.kind = row.kind;
     l.ax = single(row.a.x), l.ay = single(row.a.y), l.az = single(row.a.z);
     l.bx = single(row.b.x), l.by = single(row.b.y), l.bz = single(row.b.z);
     l.cx = single(row.c.x), l.cy = single(row.c.y), l.cz = single(row.c.z);
-    const Rgb radiance = row.texture < 0 ? row.radiance : Rgb(told);
+    const Rgb radiance = row.texture < 0 ? row.radiance : row.told;
     l.r = single(radiance.r), l.g = single(radiance.g), l.b = single(radiance.b);
     l.pmf = single(pmf), l.area = single(row.area), l.extra = single(row.extra);
     return l;
@@ -65,14 +65,27 @@ std::vector<LightBounds> bounds_of(const std::vector<LightRow>& rows, double tot
     return bounds;
 }
 
+void add_frame(const LightRow& row, std::vector<float>& frames) {
+    for (int axis = 0; axis < 3; axis++)
+        frames.push_back(static_cast<float>(row.across[axis]));
+    frames.push_back(static_cast<float>(row.aspect));
+}
+
 void add_light_textures(const std::vector<LightRow>& rows, DeviceScene& out) {
     auto has_one = [](const LightRow& row) { return row.texture >= 0; };
     if (std::none_of(rows.begin(), rows.end(), has_one)) return;
+    std::vector<float> frames;
     for (const LightRow& row : rows) {
-        const int words[LIGHT_TEXTURE_WORDS] = {row.texture, row.first_primitive,
-                                                row.primitive_count};
+        int words[LIGHT_TEXTURE_WORDS] = {row.texture, row.first_primitive, row.primitive_count};
+        if (row.first_primitive < 0) {
+            words[1] = static_cast<int>(LIGHT_TEXTURE_WORDS * rows.size() + frames.size());
+            words[2] = 0;
+            if (row.texture >= 0) add_frame(row, frames);
+        }
         out.light_textures.insert(out.light_textures.end(), std::begin(words), std::end(words));
     }
+    for (float word : frames)
+        out.light_textures.push_back(std::bit_cast<int>(word));
 }
 
 } // namespace
@@ -84,6 +97,7 @@ void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
     double total = 0.0;
     for (LightRow& row : rows) {
         row.radiance /= out.frame.radiance_unit;
+        row.told /= out.frame.radiance_unit;
         check_range(row, scene.file);
         total += power(row);
     }
@@ -93,7 +107,7 @@ void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
             out.geometry.primitives[row.first_primitive + k].light = static_cast<int>(i);
         if (row.kind == emitter_constant || row.kind == emitter_envmap)
             out.sky_light = static_cast<int>(i);
-        out.lights.push_back(light_record(row, power(row) / total, 1.0 / out.frame.radiance_unit));
+        out.lights.push_back(light_record(row, power(row) / total));
     }
     add_light_textures(rows, out);
     out.light_tree = build_light_tree(bounds_of(rows, total), choice);

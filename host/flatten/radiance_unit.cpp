@@ -23,7 +23,7 @@ struct Exponents {
 };
 
 bool has_place_only(const LightRow& row) {
-    return row.kind == emitter_point || row.kind == emitter_spot;
+    return row.kind == emitter_point || row.kind == emitter_spot || row.kind == emitter_projector;
 }
 
 Exponents exponents_of(const LightRow& row) {

@@ -121,14 +121,27 @@ void decide_surfaces(const Scene& scene, const DeviceScene& records, FeatureDeci
                fmt::format("{} primitives; packets up to {}", primitives, primitives_for_packets));
 }
 
+/// Rows of lights that have a texture, and are surfaces or have no size.
+std::size_t textured_lights(const DeviceScene& records, bool surfaces) {
+    std::size_t count = 0;
+    const std::vector<int>& words = records.light_textures;
+    for (std::size_t i = 0; i < records.lights.size() && !words.empty(); i++) {
+        const int* row = &words[LIGHT_TEXTURE_WORDS * i];
+        count += row[0] >= 0 && (row[2] > 0) == surfaces ? 1 : 0;
+    }
+    return count;
+}
+
 void decide_lights(const DeviceScene& records, FeatureDecisions& out) {
     decide_kinds(out, emitter_features, records.lights, "lights",
                  [](const LightRecord& light) { return light.kind; });
     std::size_t lights = records.lights.size();
-    bool textured = !records.light_textures.empty();
-    out.decide(feature_textured_lights, textured,
-               fmt::format("{} of {} has a texture", textured ? "some" : "none",
-                           counted(lights, "light")));
+    std::size_t textured = textured_lights(records, true);
+    std::size_t projected = textured_lights(records, false);
+    out.decide(feature_textured_lights, textured > 0,
+               fmt::format("{} of {} shines by a texture", textured, counted(lights, "light")));
+    out.decide(feature_projected_textures, projected > 0,
+               fmt::format("{} of {} shines through one", projected, counted(lights, "light")));
     out.decide(feature_several_lights, lights > 1, counted(lights, "light"));
 }
 

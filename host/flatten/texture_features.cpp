@@ -22,7 +22,7 @@ auto has_row(Words... words) {
 void decide_texture_features(const DeviceScene& records, FeatureDecisions& out) {
     using Rows = MaterialTexturesRecord;
     const std::span<const TextureRecord> textures = surface_textures(records);
-    decide_kinds(out, texture_features, textures, "textures",
+    decide_kinds(out, texture_features, textures_by_place(records), "textures",
                  [](const TextureRecord& t) { return TEXTURE_KIND(t.form); });
     out.decide(feature_textures, !textures.empty(), counted(textures.size(), "texture"));
     auto decide = [&](Feature f, auto needs) {

@@ -114,8 +114,10 @@ void add_attribute(const Scene& scene, const MeshAttributeTexture& attribute, in
 /// Of all textures, where some light has one.
 void add_means(const Scene& scene, const TextureRows& rows, const Images& images,
                DeviceScene& out) {
-    auto has_one = [](const Shape& shape) { return bool(shape.radiance_texture); };
-    if (std::none_of(scene.shapes.begin(), scene.shapes.end(), has_one)) return;
+    auto shines_so = [](const Shape& shape) { return bool(shape.radiance_texture); };
+    if (std::none_of(scene.shapes.begin(), scene.shapes.end(), shines_so) &&
+        projected_textures(out) == 0)
+        return;
     for (std::size_t row = 0; row < rows.textures().size(); row++) {
         int image = images.of_row[row];
         std::span<const std::byte> seen;
@@ -141,11 +143,13 @@ void add_textures(const Scene& scene, DeviceScene& out) {
     out.material_textures.assign(scene.materials.size(), no_textures);
     out.blend_textures.assign(scene.blends.size(), -1);
     out.radiance_textures.assign(scene.shapes.size(), -1);
+    out.emitter_textures.assign(scene.emitters.size(), -1);
     if (!looks_at_materials(scene.integrator)) return;
     const NamedTextures named = name_textures(scene, out.frame, looks_at_lights(scene.integrator));
     out.material_textures = named.of_materials;
     out.blend_textures = named.of_blends;
     out.radiance_textures = named.of_shapes;
+    out.emitter_textures = named.of_emitters;
     const TextureRows& rows = named.rows;
     const Images images = place_images(scene, rows);
     read_images(images.images, out.texels);
@@ -164,9 +168,19 @@ void add_textures(const Scene& scene, DeviceScene& out) {
     if (named.of_sky >= 0) out.environment = make_environment(out, named.of_sky);
 }
 
-std::span<const TextureRecord> surface_textures(const DeviceScene& records) {
+std::span<const TextureRecord> textures_by_place(const DeviceScene& records) {
     std::size_t of_sky = records.environment.texture >= 0 ? 1 : 0;
     return std::span(records.textures).first(records.textures.size() - of_sky);
+}
+
+std::span<const TextureRecord> surface_textures(const DeviceScene& records) {
+    std::span<const TextureRecord> all = textures_by_place(records);
+    return all.first(all.size() - projected_textures(records));
+}
+
+std::size_t projected_textures(const DeviceScene& records) {
+    const std::vector<int>& rows = records.emitter_textures;
+    return rows.size() - static_cast<std::size_t>(std::count(rows.begin(), rows.end(), -1));
 }
 
 std::size_t count_anisotropic(const DeviceScene& records) {

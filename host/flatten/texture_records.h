@@ -24,7 +24,10 @@ std::size_t count_anisotropic(const DeviceScene& records);
 inline bool has_anisotropic(const DeviceScene& records) { return count_anisotropic(records) > 0; }
 
 /// All but that of a sky, which is the last.
+std::span<const TextureRecord> textures_by_place(const DeviceScene& records);
+/// Of those all but what lights without size shine through, which are the last.
 std::span<const TextureRecord> surface_textures(const DeviceScene& records);
+std::size_t projected_textures(const DeviceScene& records);
 
 /// Whether texture coordinates are read: asked for as an AOV, or by textures.
 bool reads_uvs(const Scene& scene, const DeviceScene& records);

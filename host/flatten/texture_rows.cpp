@@ -51,6 +51,10 @@ NamedTextures name_textures(const Scene& scene, const SceneFrame& frame, bool li
         named.of_blends.push_back(rows(blend.weight.texture));
     for (const Shape& shape : scene.shapes)
         named.of_shapes.push_back(rows(shape.radiance_texture));
+    for (const Emitter& emitter : scene.emitters) {
+        const Slide* slide = lights ? slide_of(emitter) : nullptr;
+        named.of_emitters.push_back(slide ? rows.apart(slide->texture) : -1);
+    }
     if (lights) named.of_sky = sky_row(scene, rows);
     return named;
 }

@@ -52,7 +52,8 @@ struct NamedTextures {
     TextureRows rows;
     std::vector<MaterialTexturesRecord> of_materials;
     std::vector<int> of_blends, of_shapes;
-    int of_sky = -1; ///< the last row
+    std::vector<int> of_emitters; ///< what they shine through: rows behind those of surfaces
+    int of_sky = -1;              ///< the last row
 };
 
 /// `frame` is that of the records; `lights`: whether those are looked at.

@@ -69,7 +69,8 @@ inline Scene every_kind_scene() {
         PointEmitter{{1, 2, 2}, Rgb(3, 2, 4)},
         SpotEmitter{{-1, 2, 2}, glm::normalize(glm::dvec3(0.3, -1, -0.8)), 0.5, 0.3, Rgb(9)},
         DirectionalEmitter{glm::normalize(glm::dvec3(0.2, -1, -0.5)), Rgb(0.5)},
-        ConstantEmitter{Rgb(0.2, 0.3, 0.4)}};
+        ConstantEmitter{Rgb(0.2, 0.3, 0.4)},
+        ProjectorEmitter{{0.5, 2, 2}, {0, -0.8, -0.6}, {{-1, 0, 0}, {0, -0.9, 1.2}, {}}, Rgb(1)}};
     scene.camera.to_world = glm::dmat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, 1, 0, 0),
                                        glm::dvec4(0, 0, -1, 0), glm::dvec4(0.1, 0.3, 4.5, 1));
     scene.camera.fov_degrees = 50;

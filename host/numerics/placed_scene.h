@@ -49,9 +49,21 @@ inline Emitter placed(PointEmitter e, const Placement& t) {
     return e;
 }
 
+inline void place(Slide& slide, const Placement& t) {
+    slide.across = t.turn * slide.across, slide.down = t.turn * slide.down;
+}
+
 inline Emitter placed(SpotEmitter e, const Placement& t) {
     e.position = t.point(e.position), e.intensity *= t.scale * t.scale;
     e.direction = t.turn * e.direction;
+    place(e.slide, t);
+    return e;
+}
+
+inline Emitter placed(ProjectorEmitter e, const Placement& t) {
+    e.position = t.point(e.position), e.irradiance *= t.scale * t.scale;
+    e.direction = t.turn * e.direction;
+    place(e.slide, t);
     return e;
 }
 
@@ -107,6 +119,7 @@ inline Scene with_coarse_places(Scene scene) {
     for (Emitter& emitter : scene.emitters) {
         if (auto* point = std::get_if<PointEmitter>(&emitter)) snap(point->position);
         if (auto* spot = std::get_if<SpotEmitter>(&emitter)) snap(spot->position);
+        if (auto* projector = std::get_if<ProjectorEmitter>(&emitter)) snap(projector->position);
     }
     glm::dvec3 camera(scene.camera.to_world[3]);
     snap(camera);

@@ -157,6 +157,9 @@ private:
         case emitter_area_cylinder:
             values("psrr");
             break;
+        case emitter_projector:
+            values("dp");
+            break;
         case emitter_directional:
             values("drrr");
             break;

@@ -29,4 +29,8 @@ struct Camera {
     double focus_distance = 1.0;
 };
 
+/// Full horizontal angle of view in radians, from whichever of angle and focal length the scene
+/// gives.
+double horizontal_fov(const Camera& camera, int width, int height);
+
 } // namespace parhelion

@@ -14,6 +14,14 @@ struct PointEmitter {
     Rgb intensity{1.0}; ///< W/sr
 };
 
+/// What a light without size shines through: a picture in a plane across the light's axis. What
+/// travels along d passes it at (u, v) = 1/2 + (dot(d, across), dot(d, down)) / dot(d, axis); the
+/// two are perpendicular to each other and the axis.
+struct Slide {
+    glm::dvec3 across{1, 0, 0}, down{0, 1, 0};
+    TextureUse texture{};
+};
+
 /// Full intensity inside `beam_width`, falling linearly in angle to zero at `cutoff_angle` (both
 /// half angles, radians).
 struct SpotEmitter {
@@ -22,6 +30,16 @@ struct SpotEmitter {
     double cutoff_angle = 0.349066;
     double beam_width = 0.261799;
     Rgb intensity{1.0}; ///< W/sr on the axis
+    Slide slide{};      ///< its texture, if it has one, tells what that is multiplied by
+};
+
+/// Lights what it sees through its slide, u and v from 0 to 1: every wall across its axis evenly,
+/// but for the texture.
+struct ProjectorEmitter {
+    glm::dvec3 position{0.0};
+    glm::dvec3 direction{0, 0, 1}; ///< unit, its axis
+    Slide slide{{-1, 0, 0}, {0, -1, 0}, {}};
+    Rgb irradiance{1.0}; ///< times pi W/m^2, on a wall at unit distance; a texture multiplies it
 };
 
 struct DirectionalEmitter {
@@ -42,8 +60,16 @@ struct EnvmapEmitter {
     Rgb radiance{1.0};        ///< of a texel of 1
 };
 
-using Emitter =
-    std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter, EnvmapEmitter>;
+using Emitter = std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter,
+                             EnvmapEmitter, ProjectorEmitter>;
+
+/// Null for one that shines through nothing.
+inline const Slide* slide_of(const Emitter& e) {
+    const auto* const spot = std::get_if<SpotEmitter>(&e);
+    const auto* const projector = std::get_if<ProjectorEmitter>(&e);
+    const Slide* const slide = spot ? &spot->slide : projector ? &projector->slide : nullptr;
+    return slide && slide->texture ? slide : nullptr;
+}
 
 /// Light from wherever nothing is.
 inline bool is_sky(const Emitter& e) {

@@ -23,8 +23,10 @@
     X(FilterBin, filter_table) X(float, filter_values) /* at n / FILTER_INTERVALS pixels */
 
 // Of a row of the light table, where some light has a texture: the row of that, which tells what its radiance is multiplied by (-1:
-// nothing), the first primitive that shines, and how many do.
+// nothing), the first primitive that shines, and how many do. Of a light without size, 0 of them: the word behind all rows where
+// FRAME_WORDS floats begin, of the frame that it shines through: what frame_place knows as across and aspect.
 #define LIGHT_TEXTURE_WORDS 3
+#define FRAME_WORDS 4
 
 // element type, name: what a render works on
 //   path_state    words of PATH_FIELDS x state_stride: live paths, packed at the front of each segment

@@ -1,4 +1,5 @@
-// What textures tell of the radiance of area lights, where they are met and where they are sampled.
+// What textures tell of the radiance of area lights, where they are met and where they are sampled,
+// and of what lights without size shine through.
 #ifndef PARHELION_LIGHT_TEXTURE_H
 #define PARHELION_LIGHT_TEXTURE_H
 
@@ -36,6 +37,7 @@ FN vec3 light_color(SceneTables scene, Int row, TexturePlace place, Mask lanes) 
 /// The same at its point q, which it has been sampled at: two triangles may be one light.
 FN vec3 sampled_light_color(SceneTables scene, Path path, Int row, vec3 q, Mask lanes) {
     lanes = lanes & (light_word(scene, row, 0) >= 0);
+    if (HAS(projected_textures)) lanes = lanes & (light_word(scene, row, 2) > 0);
     if (!someLane(lanes)) return splat3(R(1.));
     Int number = light_word(scene, row, 1);
     PathVertex v = vertex_at(scene, path, number, q, lanes);
@@ -43,6 +45,21 @@ FN vec3 sampled_light_color(SceneTables scene, Path path, Int row, vec3 q, Mask 
     Mask other = lanes & (light_word(scene, row, 2) > 1) & !inside;
     if (someLane(other)) v = vertex_at(scene, path, sel(other, number + 1, number), q, lanes);
     return light_color(scene, row, texture_place(v), lanes);
+}
+
+/// What the light in row `row`, which has no size, shines through towards a sample of it.
+FN vec3 projected_color(SceneTables scene, Light light, Int row, EmitterSample s, Mask lanes) {
+    lanes = lanes & (light_word(scene, row, 0) >= 0) & (light_word(scene, row, 2) == 0) &
+            (max_component(s.weight) > R(0.)); // elsewhere it may be no place at all
+    if (!someLane(lanes)) return splat3(R(1.));
+    Int frame = sel(lanes, light_word(scene, row, 1), (Int)0);
+    global const float* words = (global const float*)scene.light_textures;
+    TexturePlace place;
+    place.uv = frame_place(light_b(light), load_color(scene.light_textures, frame),
+                           gather(words + 3, frame), neg3(s.wi));
+    place.primitive = place.shape = (Int)0;
+    place.b1 = place.b2 = R(0.);
+    return textured_color(scene, light_word(scene, row, 0), place, lanes, splat3(R(1.)));
 }
 
 #endif

@@ -46,6 +46,10 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
         vec3 color = sampled_light_color(w.scene, v.path, pick.row, d.sample.q, reached);
         d.sample.weight = mul3(d.sample.weight, color);
     }
+    if (HAS(projected_textures)) {
+        vec3 color = projected_color(w.scene, light, pick.row, d.sample, reached);
+        d.sample.weight = mul3(d.sample.weight, color);
+    }
     NOTE(light, d.sample);
     vec3 wi = to_local(s.frame, d.sample.wi);
     wi.z = wi.z * s.side;

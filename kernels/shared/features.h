@@ -18,7 +18,8 @@
 // Those of which their row tells all; an envmap has an image and a table (device/environment.h).
 #define EMITTERS_BY_ROW(X)                                                                         \
     X(area_triangle, 1) X(area_parallelogram, 1) X(area_sphere, 1) X(area_disk, 1) X(point, 0)       \
-    X(spot, 0) X(directional, 0) X(constant, 1) X(area_tiny_triangle, 1) X(area_cylinder, 1)
+    X(spot, 0) X(directional, 0) X(constant, 1) X(area_tiny_triangle, 1) X(area_cylinder, 1)       \
+    X(projector, 0)
 
 // First-hit values beside the radiance: name, number of channels, suffixes of the channel names. A channel without suffix is
 // for the host: of a position, 1, to know how much of a pixel has one.
@@ -40,7 +41,8 @@
     X(textures)           /* some parameter of a material is a texture; of these: */                \
     X(textured_reflectance) X(textured_transmittance) X(textured_index) X(textured_roughness)      \
     X(textured_blends)    /* and what several materials at once share */                            \
-    X(textured_lights)    /* and some light shines as one tells */                                  \
+    X(textured_lights)    /* and some surface shines as one tells */                                \
+    X(projected_textures) /* some light without size shines through one */                          \
     X(texels_byte) X(texels_half) X(texels_single) /* components of their texels */                 \
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
     X(blends)             /* some surface is several materials at once */                            \

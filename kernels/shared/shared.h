@@ -57,6 +57,7 @@
 #include "shared/emitter_directional.h"
 #include "shared/emitter_envmap.h"
 #include "shared/emitter_point.h"
+#include "shared/emitter_projector.h"
 #include "shared/emitter_spot.h"
 
 #include "shared/bsdf.h"

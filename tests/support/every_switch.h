@@ -165,6 +165,21 @@ inline void set_textured_lights(Setup& s, bool on) {
             textured(Texture{"", glm::dmat3(1), CheckerboardTexture{radiance, radiance}}).texture;
     }
 }
+/// On: a board before every light that can have one.
+inline void set_projected_textures(Setup& s, bool on) {
+    if (!on) return;
+    const TextureUse board = example_checkerboard().texture;
+    for (Emitter& emitter : s.scene.emitters) {
+        if (auto* projector = std::get_if<ProjectorEmitter>(&emitter))
+            projector->slide.texture = board;
+        if (auto* spot = std::get_if<SpotEmitter>(&emitter)) {
+            const glm::dvec3& n = spot->direction;
+            const glm::dvec3 across = glm::normalize(glm::cross(n, {0, 0, 1}));
+            const double scale = 0.5 / std::tan(spot->cutoff_angle);
+            spot->slide = {scale * across, scale * glm::cross(n, across), board};
+        }
+    }
+}
 inline void set_ggx(Setup& s, bool on) {
     if (on) return;
     for (Material& m : s.scene.materials)

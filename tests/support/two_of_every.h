@@ -160,6 +160,12 @@ inline void add_directional(Scene& scene, int which, Rgb power, Where) {
     scene.emitters.push_back(
         DirectionalEmitter{glm::normalize(glm::dvec3(0.4 * which, -1, -0.5)), power});
 }
+inline void add_projector(Scene& scene, int which, Rgb power, Where) {
+    glm::dvec3 n = glm::normalize(glm::dvec3(-0.2, -1, -0.6)), u = glm::cross(n, {0, 0, 1});
+    Slide slide{0.6 * glm::normalize(u), 0.8 * glm::normalize(glm::cross(n, u)), {}};
+    if (which) slide.down *= -0.5; // mirrored
+    scene.emitters.push_back(ProjectorEmitter{{1.2 - 2.0 * which, 2.2, 1.5}, n, slide, power});
+}
 /// There is one sky: its second example takes the place of its first, and an image that of both
 /// (example_sky.h).
 inline void add_constant(Scene& scene, int, Rgb power, Where) {
@@ -199,6 +205,7 @@ inline std::vector<Light> example_lights() {
                            : kind < emitter_directional         ? 1
                            : kind <= emitter_constant           ? 0.1
                            : kind == emitter_area_tiny_triangle ? 4 / (tiny_side * tiny_side)
+                           : kind == emitter_projector          ? 1
                                                                 : 4;
             lights.push_back({kind, which, scale * Rgb(1 + 0.2 * n, 3 - 0.15 * n, 1 + which)});
         }

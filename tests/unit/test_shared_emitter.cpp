@@ -116,6 +116,7 @@ Meeting trace_area_cylinder(const f64::Light& l, f64::vec3 p, f64::vec3 w) {
 Meeting trace_constant(const f64::Light&, f64::vec3 p, f64::vec3) { return {true, p}; }
 Meeting trace_point(const f64::Light&, f64::vec3 p, f64::vec3) { return {false, p}; }
 Meeting trace_spot(const f64::Light&, f64::vec3 p, f64::vec3) { return {false, p}; }
+Meeting trace_projector(const f64::Light&, f64::vec3 p, f64::vec3) { return {false, p}; }
 Meeting trace_directional(const f64::Light&, f64::vec3 p, f64::vec3) { return {false, p}; }
 
 // One or more of each kind. A kind without cases_<kind> and trace_<kind> does not compile.
@@ -159,6 +160,9 @@ Cases cases_spot() {
     double end = 0.6, beam = 0.4, slope = 1 / (end - beam), inner = std::cos(beam);
     return {{0, {0, 0, 4}, {0, 0, -1}, {std::cos(end), end, slope}, 0, inner, 0.5, {0.5, 0, 0}}};
 }
+Cases cases_projector() { // a frame of 4/3 x 2/3
+    return {{0, {0, 0, 4}, {0, 0, -1}, {0.75, 0, 0}, 0, 2, 0.5, {0.5, 0.2, 0}}};
+}
 Cases cases_directional() { return {{0, {}, {0, 0.6, -0.8}, {}, 0, 0, 0.5, {0, 0, 0}}}; }
 
 struct EmitterCase {
@@ -186,8 +190,9 @@ typename P::Vec3 receiver(const LightCase& c) {
 
 bool seen(const f32::EmitterSample& s) { return s.inverse_pdf > 0; }
 
+#define MEETABLE(name, met) met,
 bool is_delta(const LightCase& c) {
-    return c.kind == emitter_point || c.kind == emitter_spot || c.kind == emitter_directional;
+    return !std::array{EMITTERS(MEETABLE)}.at(std::size_t(c.kind));
 }
 
 /// A grid over the cone about the emitter that holds all samples: cosine against the axis, and

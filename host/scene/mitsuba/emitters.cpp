@@ -55,15 +55,78 @@ void check_similarity(Properties& p, const glm::dmat4& to_world, const char* wha
                                "rotation, translation, uniform scale");
 }
 
+/// Unit vectors that it turns the axes to; none of them 0.
+glm::dmat3 turned_axes(Properties& p, const glm::dmat4& to_world) {
+    glm::dmat3 axes(1.0);
+    for (int axis = 0; axis < 3; axis++)
+        axes[axis] = unit_direction(p, "to_world", glm::dvec3(to_world[axis]));
+    return axes;
+}
+
+/// What a mesh has is nothing that light could pass through on its way there.
+void refuse_attribute(Properties& p, const char* name, const TextureUse& use) {
+    if (use && std::holds_alternative<MeshAttributeTexture>(use.texture->kind))
+        p.refuse_value(name, "a mesh_attribute", "bitmap, checkerboard, or the same everywhere");
+}
+
+/// Less than half of all directions can be seen as a picture.
+constexpr double widest_slide = 90.0;
+
+/// A texture fills the square about the cone. One that is the same everywhere is no texture.
+void read_slide(Properties& p, const glm::dmat4& to_world, double cutoff, SpotEmitter& spot) {
+    const Textured<Rgb> texture = p.textured_color("texture", Rgb(1.0), SpectrumUse::emission);
+    refuse_attribute(p, "texture", texture.texture);
+    if (!texture.texture) {
+        spot.intensity *= texture.constant;
+        return;
+    }
+    if (!(cutoff < widest_slide))
+        p.refuse_value("cutoff_angle", fmt::format("{} with a texture", cutoff),
+                       "less than 90 degrees");
+    const glm::dmat3 axes = turned_axes(p, to_world);
+    const double scale = 0.5 / std::tan(spot.cutoff_angle);
+    spot.slide = {scale * axes[0], scale * axes[1], texture.texture};
+}
+
 Emitter read_spot(Properties& p) {
     const glm::dmat4 to_world = p.transform("to_world");
     check_similarity(p, to_world, "the cone of light");
     const double cutoff = p.number("cutoff_angle", 20.0);
     const double beam = p.number("beam_width", cutoff * 3.0 / 4.0);
     if (beam > cutoff) p.refuse_value("beam_width", std::to_string(beam), "up to cutoff_angle");
-    return SpotEmitter{glm::dvec3(to_world[3]),
-                       unit_direction(p, "to_world", glm::dvec3(to_world[2])), glm::radians(cutoff),
-                       glm::radians(beam), read_emission(p, "intensity")};
+    SpotEmitter spot{glm::dvec3(to_world[3]),
+                     unit_direction(p, "to_world", glm::dvec3(to_world[2])), glm::radians(cutoff),
+                     glm::radians(beam), read_emission(p, "intensity")};
+    read_slide(p, to_world, cutoff, spot);
+    return spot;
+}
+
+/// Columns and rows that the picture has; what has none is square.
+glm::ivec2 size_of(const TextureUse& use) {
+    const auto* const bitmap = use ? std::get_if<BitmapTexture>(&use.texture->kind) : nullptr;
+    return bitmap ? glm::ivec2(bitmap->source.layout.width, bitmap->source.layout.height)
+                  : glm::ivec2(1);
+}
+
+/// Its picture is what a camera there would see: to its left lies +x.
+Emitter read_projector(Properties& p) {
+    const glm::dmat4 to_world = p.transform("to_world");
+    check_similarity(p, to_world, "the picture");
+    const glm::dmat3 axes = turned_axes(p, to_world);
+    const Textured<Rgb> irradiance =
+        p.textured_color("irradiance", Rgb(1.0), SpectrumUse::emission);
+    refuse_attribute(p, "irradiance", irradiance.texture);
+    Camera lens;
+    read_field_of_view(p, lens);
+    const glm::ivec2 size = size_of(irradiance.texture);
+    const double width = 2.0 * std::tan(0.5 * horizontal_fov(lens, size.x, size.y));
+    ProjectorEmitter e;
+    e.position = glm::dvec3(to_world[3]);
+    e.direction = axes[2];
+    e.slide = {-axes[0] / width, -axes[1] / (width * size.y / size.x), irradiance.texture};
+    e.irradiance = irradiance.texture ? Rgb(1.0) : irradiance.constant;
+    e.irradiance *= p.number("scale", 1.0);
+    return e;
 }
 
 Emitter read_directional(Properties& p) {
@@ -95,8 +158,7 @@ Emitter read_envmap(Properties& p) {
                number_parameter("emitter", "envmap", "scale").domain};
     const glm::dmat4 to_world = p.transform("to_world");
     check_similarity(p, to_world, "the sky");
-    for (int axis = 0; axis < 3; axis++)
-        e.to_world[axis] = unit_direction(p, "to_world", glm::dvec3(to_world[axis]));
+    e.to_world = turned_axes(p, to_world);
     e.radiance = Rgb(p.number("scale", 1.0));
     if (p.boolean("mis_compensation", false))
         p.note("mis_compensation", "\"mis_compensation\" is not used; only the noise differs");
@@ -105,11 +167,12 @@ Emitter read_envmap(Properties& p) {
 
 using EmitterReader = Emitter (*)(Properties&);
 
-constexpr PluginTable<EmitterReader, 6> emitter_plugins = {{{"point", read_point},
+constexpr PluginTable<EmitterReader, 7> emitter_plugins = {{{"point", read_point},
                                                             {"spot", read_spot},
                                                             {"directional", read_directional},
                                                             {"constant", read_constant},
                                                             {"envmap", read_envmap},
+                                                            {"projector", read_projector},
                                                             {"area", nullptr}}};
 
 /// How often Mitsuba picks this emitter; zero would mean that it picks none of its light.

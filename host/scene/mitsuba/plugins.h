@@ -23,6 +23,11 @@ struct SurfaceMaterials {
 SurfaceMaterials read_bsdf(const Document& document, const Object& object, Scene& scene,
                            Notes& notes);
 
+class Properties;
+
+/// `fov` along `fov_axis`, or `focal_length`.
+void read_field_of_view(Properties& p, Camera& camera);
+
 /// One of the emitters that are no surfaces.
 Emitter read_emitter(const Document& document, const Object& object, Notes& notes);
 

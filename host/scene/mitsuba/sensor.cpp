@@ -18,18 +18,6 @@ namespace parhelion::mitsuba {
 
 namespace {
 
-glm::dmat4 read_camera_to_world(Properties& p) {
-    constexpr double tolerance = 1e-3; // as in Mitsuba
-    const glm::dmat4 to_world = p.transform("to_world");
-    const glm::dmat3 m(to_world);
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j <= i; ++j)
-            if (!(std::abs(glm::dot(m[i], m[j]) - (i == j ? 1.0 : 0.0)) < tolerance))
-                p.refuse_value("to_world", "a transform with scale or shear",
-                               "rotation, translation, mirror");
-    return to_world;
-}
-
 /// "50" or "50mm".
 double read_focal_length(Properties& p) {
     std::string text = p.text("focal_length", "50mm");
@@ -39,6 +27,8 @@ double read_focal_length(Properties& p) {
     if (!length) p.refuse_value("focal_length", in_quotes(written), "millimetres such as \"50mm\"");
     return p.checked("focal_length", *length);
 }
+
+} // namespace
 
 void read_field_of_view(Properties& p, Camera& camera) {
     p.knows({"focal_length", "fov_axis"});
@@ -52,6 +42,20 @@ void read_field_of_view(Properties& p, Camera& camera) {
     constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::diagonal, FovAxis::smaller,
                                 FovAxis::larger};
     camera.fov_axis = axes[p.choice("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"})];
+}
+
+namespace {
+
+glm::dmat4 read_camera_to_world(Properties& p) {
+    constexpr double tolerance = 1e-3; // as in Mitsuba
+    const glm::dmat4 to_world = p.transform("to_world");
+    const glm::dmat3 m(to_world);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j <= i; ++j)
+            if (!(std::abs(glm::dot(m[i], m[j]) - (i == j ? 1.0 : 0.0)) < tolerance))
+                p.refuse_value("to_world", "a transform with scale or shear",
+                               "rotation, translation, mirror");
+    return to_world;
 }
 
 /// Near and far plane, and what does not change the picture.
