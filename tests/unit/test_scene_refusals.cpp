@@ -34,7 +34,7 @@ TEST_CASE("scene refusals: every plugin refuses a parameter it does not have") {
     bodies.push_back("<bsdf type=\"twosided\">" + extra + "<bsdf type=\"diffuse\"/></bsdf>");
     for (const char* const s : {"sphere", "disk", "rectangle", "cube"})
         bodies.push_back("<shape type=\"" + std::string(s) + "\">" + extra + "</shape>");
-    for (const char* const e : {"point", "spot", "directional", "constant"})
+    for (const char* const e : {"point", "spot", "directional", "constant", "projector"})
         bodies.push_back("<emitter type=\"" + std::string(e) + "\">" + extra + "</emitter>");
     bodies.push_back("<emitter type=\"area\" id=\"a\">" + extra + "</emitter>");
     bodies.push_back("<film type=\"hdrfilm\">" + extra + "</film>");
