@@ -132,7 +132,8 @@ LightRow row_of(const ConstantEmitter& e, const Surroundings& s) {
 LightRow row_of(const EnvmapEmitter& e, const Surroundings& s) {
     LightRow row = make_row(emitter_envmap, e.radiance);
     row.a = e.to_world[0], row.b = e.to_world[1], row.c = e.to_world[2];
-    row.etendue = s.environment.mean * 4.0 * pi * pi * square(s.box.radius());
+    row.mean = s.environment.mean;
+    row.etendue = row.mean * 4.0 * pi * pi * square(s.box.radius());
     row.peak = s.environment.peak;
     return row;
 }

@@ -93,8 +93,13 @@ LightBounds light_bounds(const LightRow& row) {
         set_box(bounds, {a});
         set_frame(bounds, row);
         break;
-    default:
+    case emitter_directional:
         bounds.distant = true;
+        bounds.intensity = bright;
+        break;
+    default: // a sky: half of it is seen, as bright as on average
+        bounds.distant = true;
+        bounds.intensity = std::numbers::pi * bright * row.mean;
     }
     return bounds;
 }

@@ -17,6 +17,7 @@ struct LightRow {
     double area = 0.0;     ///< of the emitting surface; 0: no surface
     double etendue = 0.0;  ///< power of a radiance of 1, in any common unit
     double peak = 1.0;     ///< of what an image makes of the radiance, the largest
+    double mean = 1.0;     ///< of a sky's, over all directions
     double distance = 0.0; ///< of a light without size from the box around all shapes; 0 within
     int first_primitive = -1, primitive_count = 1; ///< that shine; -1: none does
     int texture = -1;                              ///< that tells the radiance, a row; -1: none

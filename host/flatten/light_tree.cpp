@@ -116,11 +116,10 @@ private:
     void add_siblings(Range left, Range right, int parent, std::vector<Open>& open) {
         int first = static_cast<int>(tree_.nodes.size());
         if (parent >= 0) tree_.nodes[parent].child = first;
-        // A group beside one without place is weighed by power: the other's importance has no unit.
-        bool fixed = by_power_ || lights_[left[0]].distant != lights_[right[0]].distant;
+        bool mixed = lights_[left[0]].distant != lights_[right[0]].distant;
         for (Range group : {left, right}) {
             int node = static_cast<int>(tree_.nodes.size());
-            tree_.nodes.push_back(record(group, parent, fixed));
+            tree_.nodes.push_back(record(group, parent, mixed));
             if (group.size() > 1) {
                 open.push_back({group, node});
             } else {
@@ -130,15 +129,20 @@ private:
         }
     }
 
-    LightNodeRecord record(Range group, int parent, bool fixed) const {
+    /// `mixed`: of two of which one has no place. What the other sends to a point is weighed
+    /// against its irradiance there, which is the same everywhere.
+    LightNodeRecord record(Range group, int parent, bool mixed) const {
         LightNodeRecord r{};
         r.parent = parent;
-        double power = 0.0;
-        for (int i : group)
-            power += lights_[i].power;
-        r.fixed = fixed || lights_[group[0]].distant;
-        r.intensity = static_cast<float>(power);
-        if (r.fixed) return r;
+        r.fixed = by_power_ || lights_[group[0]].distant;
+        if (r.fixed) {
+            auto weight = mixed && !by_power_ ? &LightBounds::intensity : &LightBounds::power;
+            double sum = 0.0;
+            for (int i : group)
+                sum += lights_[i].*weight;
+            r.intensity = static_cast<float>(sum);
+            return r;
+        }
         LightBounds b = lights_[group[0]];
         for (int i : group.subspan(1))
             b = merge(b, lights_[i]);

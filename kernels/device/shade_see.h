@@ -21,6 +21,10 @@ FN vec3 lit_from(Path path) {
 /// nothing for the hidden ones.
 FN vec3 sky_emission(ShadeWork w, Path path, Mask missed, Mask hidden) {
     Light light = load_Light(w.scene.lights, (Int)w.params->sky_light);
+    if (HAS(next_event))
+        light = light_picked_with(light, light_pmf(w.scene.light_nodes, w.scene.light_leaves,
+                                                   lit_from(path), (Int)w.params->sky_light,
+                                                   missed & finiteR(path.pdf)));
     SkySeen sky;
     if (HAS(emitter_envmap)) {
         sky = sky_seen(w.scene, light, w.params->sky_texture, path.direction, missed);

@@ -142,8 +142,32 @@ TEST_CASE("Light table: no light is too bright or too far for single precision")
     CHECK_THROWS_WITH(make_device_scene(scene), Catch::Contains("made by the test: the distance"));
 }
 
-TEST_CASE("Light tree: a sky keeps its share of the power whatever is near") {
-    DeviceScene scene = make_device_scene(many_lights_scene(100, true));
+TEST_CASE("Light tree: what has no place is chosen by what it sends to the point, as the rest is") {
+    // A lamp of one intensity, two units above a floor, under a sky or a sun: by irradiance, and of
+    // the lamp by its cosine.
+    Scene scene = many_lights_scene(1, false);
+    scene.shapes.pop_back(); // the lamp
+    const double intensity = 5, height = 2, x = 1.5;
+    const double squared = height * height + x * x, cosine = height / std::sqrt(squared);
+    const double lamp = intensity / squared * cosine;
+    for (bool sun : {false, true}) {
+        scene.emitters = {PointEmitter{{0, height, 0}, Rgb(intensity)}};
+        if (sun)
+            scene.emitters.emplace_back(DirectionalEmitter{{0, -1, 0}, Rgb(0.7)});
+        else
+            scene.emitters.emplace_back(ConstantEmitter{Rgb(0.3)});
+        const double distant = sun ? 0.7 : 0.3 * M_PI;
+        DeviceScene device = make_device_scene(scene);
+        std::vector<double> pmf =
+            light_probabilities(device, in_frame(device, {x, 0, 0}), {0, 1, 0}, false);
+        REQUIRE(pmf.size() == 2);
+        CHECK(pmf[0] == Approx(lamp / (lamp + distant)).epsilon(1e-5));
+        CHECK(pmf[1] == Approx(distant / (lamp + distant)).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("Light tree: by power a sky has its share of it whatever is near") {
+    DeviceScene scene = make_device_scene(many_lights_scene(100, true), LightChoice::power);
     std::vector<double> pmf =
         light_probabilities(scene, in_frame(scene, {1, 0.5, 3}), {0, 1, 0}, false);
     double share = scene.lights[std::size_t(scene.sky_light)].pmf;

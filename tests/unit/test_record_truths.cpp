@@ -188,8 +188,13 @@ TEST_CASE("Record truths: boxes, cones and brightness of lights for the tree", "
         CHECK(found.power == power(rows[i]));
         CHECK(!found.distant);
     }
-    for (std::size_t i : {8, 9})
-        CHECK(light_bounds(rows[i]).distant);
+    for (std::size_t i : {8, 9}) {
+        LightBounds found = light_bounds(rows[i]);
+        CHECK(found.distant);
+        // What a plane receives that faces it: of a sky of radiance 1, pi.
+        bool sky = rows[i].kind != emitter_directional;
+        CHECK(found.intensity == near(parhelion::brightness(rows[i].radiance) * (sky ? pi : 1)));
+    }
 }
 
 TEST_CASE("Record truths: importance of lights, Conty Estevez and Kulla 2018", "[truths]") {
