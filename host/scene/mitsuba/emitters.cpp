@@ -178,9 +178,9 @@ constexpr PluginTable<EmitterReader, 7> emitter_plugins = {{{"point", read_point
 /// How often Mitsuba picks this emitter; zero would mean that it picks none of its light.
 void read_sampling_weight(Properties& p) {
     if (p.number("sampling_weight", 1.0) != 1.0)
-        p.note("sampling_weight",
-               "\"sampling_weight\" is not used, emitters are picked by power; only the noise "
-               "differs");
+        p.note("sampling_weight", "\"sampling_weight\" is not used, emitters are picked by what "
+                                  "they send; only the noise "
+                                  "differs");
 }
 
 } // namespace
