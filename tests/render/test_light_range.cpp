@@ -28,12 +28,16 @@ Scene every_light() {
 Scene times(Scene scene, double factor) {
     for (Shape& shape : scene.shapes)
         if (shape.radiance) *shape.radiance *= factor;
-    for (Emitter& emitter : scene.emitters) {
-        if (auto* e = std::get_if<PointEmitter>(&emitter)) e->intensity *= factor;
-        if (auto* e = std::get_if<SpotEmitter>(&emitter)) e->intensity *= factor;
-        if (auto* e = std::get_if<DirectionalEmitter>(&emitter)) e->irradiance *= factor;
-        if (auto* e = std::get_if<ConstantEmitter>(&emitter)) e->radiance *= factor;
-    }
+    auto brighten = [factor](auto& e) {
+        if constexpr (requires { e.intensity; })
+            e.intensity *= factor;
+        else if constexpr (requires { e.irradiance; })
+            e.irradiance *= factor;
+        else
+            e.radiance *= factor;
+    };
+    for (Emitter& emitter : scene.emitters)
+        std::visit(brighten, emitter);
     return scene;
 }
 

@@ -25,9 +25,9 @@ constexpr double degree = glm::pi<double>() / 180;
 
 /// 2 x 2 texels, and 4 x 2, no two alike, the top row first.
 std::vector<float> texels(int count) {
-    std::vector<float> values;
-    for (int n = 0; n < count; n++)
-        values.push_back(0.25f + 0.5f * static_cast<float>(n));
+    std::vector<float> values(static_cast<std::size_t>(count));
+    for (std::size_t n = 0; n < values.size(); n++)
+        values[n] = 0.25f + 0.5f * static_cast<float>(n);
     return values;
 }
 
