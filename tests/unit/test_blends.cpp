@@ -154,6 +154,18 @@ TEST_CASE("Blends: filters without polarisation are grey sheets, as in Mitsuba's
                Catch::Matchers::Contains("\"transmittance\" is a colour (accepted: a grey)"));
 }
 
+TEST_CASE("Blends: pplastic is roughplastic, and said to be", "[blends]") {
+    const std::string inside =
+        R"(<float name="alpha" value="0.2"/><string name="distribution" value="ggx"/>)";
+    Scene scene = load_body(shape("<bsdf type=\"pplastic\">" + inside + "</bsdf>"));
+    const auto& plastic = std::get<RoughPlasticBsdf>(scene.materials.at(0).bsdf);
+    CHECK(plastic.roughness.alpha == 0.2);
+    REQUIRE(scene.notes.size() == 1);
+    CHECK_THAT(scene.notes[0],
+               Catch::Matchers::Contains(
+                   "scene.xml:2: bsdf plugin \"pplastic\" is read as \"roughplastic\""));
+}
+
 TEST_CASE("Blends: refusals", "[blends]") {
     auto refusal = [](const std::string& bsdf) { return refusal_of_body(shape(bsdf)); };
     using Catch::Matchers::Contains;

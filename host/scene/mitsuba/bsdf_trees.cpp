@@ -139,10 +139,12 @@ SurfaceMaterials read_retarder(Reading& r) {
 }
 
 SurfaceMaterials read_pplastic(Reading& r) {
-    r.notes.push_back(r.p.title() +
+    r.notes.push_back(r.object.location.to_string() + ": " + r.p.title() +
                       " is read as \"roughplastic\": nothing is polarised, and its matte "
                       "base is up to a quarter darker");
-    return read_material<mitsuba::read_roughplastic>(r);
+    Object same = r.object;
+    same.plugin = "roughplastic";
+    return read_surface({r.document, same, r.id, r.scene, r.notes});
 }
 
 /// What is made of `code`, tilted: the materials themselves, and copies of those that stand on both
