@@ -3,6 +3,7 @@
 
 #include "host/commands/render.h"
 #include "host/commands/render_domains.h"
+#include "host/commands/scene_check.h"
 #include "host/error.h"
 #include "host/flatten/device_scene.h"
 #include "host/flatten/kind_names.h"
@@ -24,7 +25,7 @@ namespace {
 
 struct InfoCommand {
     RenderCommand image; ///< what of it decides which kernels there are
-    bool json = false;
+    bool json = false, check = false;
 };
 
 /// Of textures that are images: what their files hold.
@@ -145,7 +146,14 @@ std::string text_of(const nlohmann::json& info) {
     return text;
 }
 
+int run_check(const InfoCommand& command) {
+    nlohmann::json check = check_scene(command.image.scene_file, load_options(command.image));
+    print(command.json ? json_text(check) : check_text(check));
+    return static_cast<int>(check_exit_code(check));
+}
+
 int run_info(const InfoCommand& command) {
+    if (command.check) return run_check(command);
     Scene scene = load_scene(command.image.scene_file, load_options(command.image));
     apply_overrides(command.image, scene);
     nlohmann::json info = describe(scene, make_device_scene(scene));
@@ -161,7 +169,10 @@ Subcommand info_subcommand() {
         .name = "info",
         .summary = "Say what is in a scene and what its kernels will have",
         .examples =
-            "Example:\n  parhelion info scenes/cornell-box/scene.xml --json | jq .kernel_features",
+            "Examples:\n"
+            "  parhelion info scenes/cornell-box/scene.xml --json | jq .kernel_features\n"
+            "  parhelion info theirs.xml --check   # what of it is exact, approximated, refused; "
+            "exit code 0, 1, 2",
         .options =
             {{"scene", &c->image.scene_file, "Scene file (Mitsuba 3 XML)", {.required = true}},
              {"-D,--define", &c->image.definitions,
@@ -172,6 +183,9 @@ Subcommand info_subcommand() {
              {"--allow-outside", &c->image.allow_outside,
               "Let the scene name files outside its own folder"},
              {"--lenient", &c->image.lenient, lenient_help},
+             {"--check", &c->check,
+              "Say of everything in the file whether it is rendered as written, approximately (and "
+              "how) or refused (and what --lenient makes of it): exit code 0, 1 or 2"},
              {"--json", &c->json, "One JSON object"}},
         .run = [c] { return run_info(*c); },
     };

@@ -1,11 +1,13 @@
 // Reading a scene file into a Scene.
 #pragma once
 
+#include "host/scene/construct.h"
 #include "host/scene/scene.h"
 
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace parhelion {
 
@@ -23,5 +25,8 @@ struct LoadOptions {
 /// Loads a scene (the format is chosen by the file's extension).
 /// Throws InputError, a line for each thing that cannot be rendered exactly as written.
 Scene load_scene(const std::string& file, const LoadOptions& options = {});
+
+/// What the file is written of, known or not. Throws InputError where it cannot be read.
+std::vector<Construct> scene_constructs(const std::string& file, const LoadOptions& options = {});
 
 } // namespace parhelion

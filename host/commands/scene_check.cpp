@@ -1,0 +1,182 @@
+// What of a scene file can be rendered as it is written.
+#include "host/commands/scene_check.h"
+
+#include "host/safe_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace parhelion {
+namespace {
+
+enum Status { exact, approximated, refused };
+constexpr std::array status_names{"exact", "approximated", "refused"};
+
+/// What reading a scene had to say.
+struct Reading {
+    std::vector<std::string> notes, problems;
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    for (std::size_t start = 0; start <= text.size();) {
+        std::size_t end = std::min(text.find('\n', start), text.size());
+        lines.push_back(text.substr(start, end - start));
+        start = end + 1;
+    }
+    return lines;
+}
+
+Reading read(const std::string& file, const LoadOptions& options) {
+    try {
+        return {load_scene(file, options).notes, {}};
+    } catch (const InputError& error) {
+        return {{}, lines_of(error.what())};
+    }
+}
+
+/// Which construct a message that begins with a place is about.
+class Places {
+public:
+    explicit Places(const std::vector<Construct>& constructs) : constructs_(constructs) {
+        for (std::size_t i = 0; i < constructs.size(); i++)
+            for (const SourceLocation& place : constructs[i].places)
+                at_[as_one_line(place.to_string())].push_back(i);
+    }
+
+    /// The text before its first colon that is a place, "" where there is none. File names may hold
+    /// colons themselves.
+    std::string place_of(const std::string& message) const {
+        for (std::size_t end = message.find(": "); end != std::string::npos;
+             end = message.find(": ", end + 1))
+            if (std::string place = message.substr(0, end); at_.contains(place)) return place;
+        return "";
+    }
+
+    /// Of several in one line that which the message names, or the first.
+    std::optional<std::size_t> construct_of(const std::string& message) const {
+        const auto found = at_.find(place_of(message));
+        if (found == at_.end()) return std::nullopt;
+        for (std::size_t i : found->second) {
+            const Construct& c = constructs_[i];
+            if (message.find(fmt::format("{} plugin \"{}\"", c.kind, c.plugin)) !=
+                std::string::npos)
+                return i;
+        }
+        return found->second.front();
+    }
+
+private:
+    const std::vector<Construct>& constructs_;
+    std::unordered_map<std::string, std::vector<std::size_t>> at_;
+};
+
+/// Kinds of constructs in the order of the file.
+nlohmann::json counted(const std::vector<Construct>& constructs, const std::vector<int>& status) {
+    std::map<std::pair<std::string, std::string>, std::size_t> known;
+    nlohmann::json rows = nlohmann::json::array();
+    for (std::size_t i = 0; i < constructs.size(); i++) {
+        const Construct& c = constructs[i];
+        auto [row, added] = known.try_emplace({c.kind, c.plugin}, rows.size());
+        if (added)
+            rows.push_back({{"kind", c.kind},
+                            {"plugin", c.plugin},
+                            {"exact", 0},
+                            {"approximated", 0},
+                            {"refused", 0}});
+        nlohmann::json& count =
+            rows[row->second][status_names[static_cast<std::size_t>(status[i])]];
+        count = count.get<int>() + 1;
+    }
+    return rows;
+}
+
+/// What the lenient reading says at the same place; nothing where it is refused there too.
+std::string at_same_place(const Reading& lenient, const Places& places, const std::string& place) {
+    for (const std::string& note : lenient.notes)
+        if (!place.empty() && places.place_of(note) == place) return note.substr(place.size() + 2);
+    return "";
+}
+
+} // namespace
+
+nlohmann::json check_scene(const std::string& file, const LoadOptions& options) {
+    const std::vector<Construct> constructs = scene_constructs(file, options);
+    const Places places(constructs);
+    const Reading strict = read(file, options);
+    LoadOptions leniently = options;
+    leniently.lenient = true;
+    Reading lenient;
+    if (!strict.problems.empty() && !options.lenient) lenient = read(file, leniently);
+
+    std::vector<int> status(constructs.size(), exact);
+    nlohmann::json messages = nlohmann::json::array();
+    int worst = exact;
+    auto tell = [&](Status s, const std::string& text) {
+        nlohmann::json message{{"status", status_names[s]}, {"text", text}};
+        if (const auto i = places.construct_of(text)) {
+            status[*i] = std::max<int>(status[*i], s);
+            message["construct"] = constructs[*i].kind + " " + constructs[*i].plugin;
+        }
+        const std::string instead = at_same_place(lenient, places, places.place_of(text));
+        if (s == refused && !instead.empty()) message["leniently"] = instead;
+        worst = std::max<int>(worst, s);
+        messages.push_back(std::move(message));
+    };
+    // What the lenient reading makes of those is told with them.
+    std::set<std::string> refused_places;
+    for (const std::string& problem : strict.problems) {
+        tell(refused, problem);
+        refused_places.insert(places.place_of(problem));
+    }
+    for (const std::string& note : strict.problems.empty() ? strict.notes : lenient.notes)
+        if (!refused_places.contains(places.place_of(note))) tell(approximated, note);
+    nlohmann::json check{{"scene", file},
+                         {"verdict", status_names[static_cast<std::size_t>(worst)]},
+                         {"constructs", counted(constructs, status)},
+                         {"messages", messages}};
+    if (worst == refused && !options.lenient) check["opens_leniently"] = lenient.problems.empty();
+    return check;
+}
+
+std::string check_text(const nlohmann::json& check) {
+    std::string text = fmt::format("{}: {}", as_one_line(check["scene"].get<std::string>()),
+                                   check["verdict"].get<std::string>());
+    if (check.contains("opens_leniently"))
+        text += check["opens_leniently"].get<bool>() ? "; opens with --lenient"
+                                                     : "; not even --lenient opens it";
+    text += '\n';
+    for (const char* status : status_names) {
+        std::string names;
+        for (const nlohmann::json& row : check["constructs"])
+            if (int count = row[status].get<int>(); count > 0)
+                names += fmt::format(
+                    "{}{} {}{}", names.empty() ? "" : ", ", row["kind"].get<std::string>(),
+                    row["plugin"].get<std::string>(), count > 1 ? fmt::format(" ({})", count) : "");
+        if (!names.empty()) text += fmt::format("  {:<13} {}\n", status, as_one_line(names));
+    }
+    for (const nlohmann::json& message : check["messages"]) {
+        text += fmt::format("{}: {}\n", message["status"].get<std::string>(),
+                            as_one_line(message["text"].get<std::string>()));
+        if (message.contains("leniently"))
+            text += fmt::format("  leniently: {}\n",
+                                as_one_line(message["leniently"].get<std::string>()));
+    }
+    return text;
+}
+
+ExitCode check_exit_code(const nlohmann::json& check) {
+    const auto verdict = check["verdict"].get<std::string>();
+    if (verdict == status_names[refused]) return ExitCode::bad_input;
+    return verdict == status_names[approximated] ? ExitCode::different : ExitCode::ok;
+}
+
+} // namespace parhelion
