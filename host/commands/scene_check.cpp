@@ -120,7 +120,9 @@ nlohmann::json check_scene(const std::string& file, const LoadOptions& options) 
     std::vector<int> status(constructs.size(), exact);
     nlohmann::json messages = nlohmann::json::array();
     int worst = exact;
+    std::set<std::string> told; // what is referred to twice can be read twice
     auto tell = [&](Status s, const std::string& text) {
+        if (!told.insert(text).second) return;
         nlohmann::json message{{"status", status_names[s]}, {"text", text}};
         if (const auto i = places.construct_of(text)) {
             status[*i] = std::max<int>(status[*i], s);
