@@ -41,6 +41,27 @@ Long ggx_density(const float* h, const float* alpha) {
     return 1 / (pi * Long(alpha[0]) * alpha[1] * q * q);
 }
 
+/// The exponent of Beckmann's density of a normal, and the density.
+Long beckmann_exponent(const float* h, const float* alpha) {
+    return stretched_square(h, alpha) / (Long(h[2]) * h[2]);
+}
+Long beckmann_density(const float* h, const float* alpha) {
+    Long z2 = Long(h[2]) * h[2];
+    return expl(-beckmann_exponent(h, alpha)) / (pi * Long(alpha[0]) * alpha[1] * z2 * z2);
+}
+
+/// Walter's rational form of Beckmann's masking, a: one over the slope.
+Long walter_masking(Long a) {
+    return a < 1.6L ? a * (3.535L + 2.181L * a) / (1 + a * (2.276L + 2.577L * a)) : 1;
+}
+
+/// The length of a direction off 1, and whether it is not above the horizon.
+void judge_direction(const float* w, double* errors) {
+    Long x = w[0], y = w[1], z = w[2];
+    errors[0] = static_cast<double>(fabsl(sqrtl(x * x + y * y + z * z) - 1) / 0x1p-23L);
+    errors[1] = !(z > 0);
+}
+
 Long stretched_length(const float* w, const float* alpha) {
     Long x = Long(w[0]) * alpha[0], y = Long(w[1]) * alpha[1], z = w[2];
     return sqrtl(x * x + y * y + z * z);
@@ -86,14 +107,12 @@ FunctionTest beckmann() {
             .judge =
                 [](const float* in, const float* out, double* errors) {
                     const float* alpha = in + 3;
-                    Long z2 = Long(in[2]) * in[2], t = stretched_square(in, alpha) / z2;
-                    Long d = expl(-t) / (pi * Long(alpha[0]) * alpha[1] * z2 * z2);
+                    Long t = beckmann_exponent(in, alpha), d = beckmann_density(in, alpha);
                     errors[0] = t < 80 ? ulps(out[0], d) / static_cast<double>(1 + t) : not_asked;
                     Long x = Long(alpha[0]) * in[0], y = Long(alpha[1]) * in[1];
                     Long a = in[2] / sqrtl(x * x + y * y);
-                    Long g =
-                        a < 1.6L ? a * (3.535L + 2.181L * a) / (1 + a * (2.276L + 2.577L * a)) : 1;
-                    errors[1] = fabsl(a - 1.6L) < 1e-5L ? not_asked : ulps(out[1], g);
+                    errors[1] =
+                        fabsl(a - 1.6L) < 1e-5L ? not_asked : ulps(out[1], walter_masking(a));
                 },
             .axis = "log10 of the roughness",
             .axis_low = -4,
@@ -114,13 +133,8 @@ FunctionTest visible_normals() {
                                                       : random.bits() % 2 ? 0
                                                                           : 1 - 0x1p-24);
                 },
-            .judge =
-                [](const float* /*in*/, const float* out, double* errors) {
-                    Long x = out[0], y = out[1], z = out[2];
-                    errors[0] =
-                        static_cast<double>(fabsl(sqrtl(x * x + y * y + z * z) - 1) / 0x1p-23L);
-                    errors[1] = !(z > 0);
-                },
+            .judge = [](const float* /*in*/, const float* out,
+                        double* errors) { judge_direction(out, errors); },
             .axis = "log10 of the roughness",
             .axis_low = -4,
             .axis_high = 0,
@@ -152,17 +166,14 @@ FunctionTest visible_normals_of_beckmann() {
     test.measures.push_back({"density over 1 + exponent", "ulp", 16});
     test.measures.push_back({"masking over exact masking", "ulp", 16});
     test.judge = [](const float* in, const float* out, double* errors) {
-        Long x = out[0], y = out[1], z = out[2];
-        errors[0] = static_cast<double>(fabsl(sqrtl(x * x + y * y + z * z) - 1) / 0x1p-23L);
-        errors[1] = !(z > 0);
+        judge_direction(out, errors);
         errors[2] = static_cast<double>(off_shares(in, out));
         Long sx = Long(in[3]) * in[0], sy = Long(in[4]) * in[1], r = hypotl(sx, sy), a = in[2] / r;
-        Long whole = r > 0 ? in[2] * erfcl(-a) + r * expl(-a * a) / sqrtl(pi) : 2 * Long(in[2]);
-        Long t = stretched_square(out, in + 3) / (z * z);
-        Long d = expl(-t) / (pi * Long(in[3]) * in[4] * z * z * z * z);
+        Long whole = r > 0 ? slopes_below(a, in[2], r) : 2 * Long(in[2]);
+        Long t = beckmann_exponent(out, in + 3), d = beckmann_density(out, in + 3);
         errors[3] = t < 80 ? ulps(out[3], 2 * d / whole) / static_cast<double>(1 + t) : not_asked;
-        Long g = a < 1.6L ? a * (3.535L + 2.181L * a) / (1 + a * (2.276L + 2.577L * a)) : 1;
-        errors[4] = fabsl(a - 1.6L) < 1e-5L ? not_asked : ulps(out[4], g * whole / (2 * in[2]));
+        Long ratio = walter_masking(a) * whole / (2 * in[2]);
+        errors[4] = fabsl(a - 1.6L) < 1e-5L ? not_asked : ulps(out[4], ratio);
     };
     return test;
 }

@@ -2,6 +2,7 @@
 #include "host/commands/scene_check.h"
 
 #include "host/safe_text.h"
+#include "host/scene/text.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -17,7 +19,7 @@
 namespace parhelion {
 namespace {
 
-enum Status { exact, approximated, refused };
+enum Status : std::size_t { exact, approximated, refused };
 constexpr std::array status_names{"exact", "approximated", "refused"};
 
 /// What reading a scene had to say.
@@ -25,21 +27,13 @@ struct Reading {
     std::vector<std::string> notes, problems;
 };
 
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    for (std::size_t start = 0; start <= text.size();) {
-        std::size_t end = std::min(text.find('\n', start), text.size());
-        lines.push_back(text.substr(start, end - start));
-        start = end + 1;
-    }
-    return lines;
-}
-
 Reading read(const std::string& file, const LoadOptions& options) {
     try {
         return {load_scene(file, options).notes, {}};
     } catch (const InputError& error) {
-        return {{}, lines_of(error.what())};
+        const std::string_view lines = error.what();
+        const auto problems = split(lines, "\n");
+        return {{}, {problems.begin(), problems.end()}};
     }
 }
 
@@ -80,7 +74,8 @@ private:
 };
 
 /// Kinds of constructs in the order of the file.
-nlohmann::json counted(const std::vector<Construct>& constructs, const std::vector<int>& status) {
+nlohmann::json counted(const std::vector<Construct>& constructs,
+                       const std::vector<Status>& status) {
     std::map<std::pair<std::string, std::string>, std::size_t> known;
     nlohmann::json rows = nlohmann::json::array();
     for (std::size_t i = 0; i < constructs.size(); i++) {
@@ -92,18 +87,20 @@ nlohmann::json counted(const std::vector<Construct>& constructs, const std::vect
                             {"exact", 0},
                             {"approximated", 0},
                             {"refused", 0}});
-        nlohmann::json& count =
-            rows[row->second][status_names[static_cast<std::size_t>(status[i])]];
+        nlohmann::json& count = rows[row->second][status_names[status[i]]];
         count = count.get<int>() + 1;
     }
     return rows;
 }
 
-/// What the lenient reading says at the same place; nothing where it is refused there too.
-std::string at_same_place(const Reading& lenient, const Places& places, const std::string& place) {
-    for (const std::string& note : lenient.notes)
-        if (!place.empty() && places.place_of(note) == place) return note.substr(place.size() + 2);
-    return "";
+/// What notes say, by their places; the first of each.
+std::map<std::string, std::string> by_place(const Places& places,
+                                            const std::vector<std::string>& notes) {
+    std::map<std::string, std::string> texts;
+    for (const std::string& note : notes)
+        if (const std::string place = places.place_of(note); !place.empty())
+            texts.try_emplace(place, note.substr(place.size() + 2));
+    return texts;
 }
 
 } // namespace
@@ -117,20 +114,23 @@ nlohmann::json check_scene(const std::string& file, const LoadOptions& options) 
     Reading lenient;
     if (!strict.problems.empty() && !options.lenient) lenient = read(file, leniently);
 
-    std::vector<int> status(constructs.size(), exact);
+    const std::map<std::string, std::string> instead = by_place(places, lenient.notes);
+
+    std::vector<Status> status(constructs.size(), exact);
     nlohmann::json messages = nlohmann::json::array();
-    int worst = exact;
+    Status worst = exact;
     std::set<std::string> told; // what is referred to twice can be read twice
     auto tell = [&](Status s, const std::string& text) {
         if (!told.insert(text).second) return;
         nlohmann::json message{{"status", status_names[s]}, {"text", text}};
         if (const auto i = places.construct_of(text)) {
-            status[*i] = std::max<int>(status[*i], s);
+            status[*i] = std::max(status[*i], s);
             message["construct"] = constructs[*i].kind + " " + constructs[*i].plugin;
         }
-        const std::string instead = at_same_place(lenient, places, places.place_of(text));
-        if (s == refused && !instead.empty()) message["leniently"] = instead;
-        worst = std::max<int>(worst, s);
+        if (const auto found = instead.find(places.place_of(text));
+            s == refused && found != instead.end())
+            message["leniently"] = found->second;
+        worst = std::max(worst, s);
         messages.push_back(std::move(message));
     };
     // What the lenient reading makes of those is told with them.
@@ -142,7 +142,7 @@ nlohmann::json check_scene(const std::string& file, const LoadOptions& options) 
     for (const std::string& note : strict.problems.empty() ? strict.notes : lenient.notes)
         if (!refused_places.contains(places.place_of(note))) tell(approximated, note);
     nlohmann::json check{{"scene", file},
-                         {"verdict", status_names[static_cast<std::size_t>(worst)]},
+                         {"verdict", status_names[worst]},
                          {"constructs", counted(constructs, status)},
                          {"messages", messages}};
     if (worst == refused && !options.lenient) check["opens_leniently"] = lenient.problems.empty();

@@ -37,6 +37,19 @@ inline void add_every_material(Scene& scene) {
         scene.materials.push_back({"", {}, b});
 }
 
+/// What all the light of an emitter is proportional to, whatever it is called.
+inline Rgb& strength_of(Emitter& emitter) {
+    auto strength = [](auto& e) -> Rgb& {
+        if constexpr (requires { e.intensity; })
+            return e.intensity;
+        else if constexpr (requires { e.irradiance; })
+            return e.irradiance;
+        else
+            return e.radiance;
+    };
+    return std::visit(strength, emitter);
+}
+
 inline Scene every_kind_scene() {
     Scene scene;
     scene.file = "made by the test";

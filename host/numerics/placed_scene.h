@@ -116,11 +116,11 @@ inline Scene with_coarse_places(Scene scene) {
         if (auto* disk = std::get_if<Disk>(&shape.geometry)) snap(disk->center);
         if (auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) snap(cylinder->base);
     }
-    for (Emitter& emitter : scene.emitters) {
-        if (auto* point = std::get_if<PointEmitter>(&emitter)) snap(point->position);
-        if (auto* spot = std::get_if<SpotEmitter>(&emitter)) snap(spot->position);
-        if (auto* projector = std::get_if<ProjectorEmitter>(&emitter)) snap(projector->position);
-    }
+    auto snap_place = [&](auto& emitter) {
+        if constexpr (requires { emitter.position; }) snap(emitter.position);
+    };
+    for (Emitter& emitter : scene.emitters)
+        std::visit(snap_place, emitter);
     glm::dvec3 camera(scene.camera.to_world[3]);
     snap(camera);
     scene.camera.to_world[3] = glm::dvec4(camera, 1);

@@ -17,14 +17,19 @@ FN vec3 lit_from(Path path) {
     return path.origin;
 }
 
+/// With the probability of its pick where the path could have sampled it.
+FN Light light_pickable(ShadeWork w, Path path, Light light, Int row, Mask lanes) {
+    Real pmf = light_pmf(w.scene.light_nodes, w.scene.light_leaves, lit_from(path), row, lanes);
+    return light_picked_with(light, pmf);
+}
+
 /// Radiance of the sky for lanes that missed everything, weighted against next event estimation;
 /// nothing for the hidden ones.
 FN vec3 sky_emission(ShadeWork w, Path path, Mask missed, Mask hidden) {
     Light light = load_Light(w.scene.lights, (Int)w.params->sky_light);
     if (HAS(next_event))
-        light = light_picked_with(light, light_pmf(w.scene.light_nodes, w.scene.light_leaves,
-                                                   lit_from(path), (Int)w.params->sky_light,
-                                                   missed & finiteR(path.pdf)));
+        light =
+            light_pickable(w, path, light, (Int)w.params->sky_light, missed & finiteR(path.pdf));
     SkySeen sky;
     if (HAS(emitter_envmap)) {
         sky = sky_seen(w.scene, light, w.params->sky_texture, path.direction, missed);
@@ -54,8 +59,7 @@ FN vec3 surface_emission(ShadeWork w, PathVertex v) {
     // Next event estimation has no part in what the camera or a mirror sees.
     Mask weighted = emits & finiteR(v.path.pdf);
     if (HAS(next_event))
-        light = light_picked_with(light, light_pmf(w.scene.light_nodes, w.scene.light_leaves,
-                                                   lit_from(v.path), row, weighted));
+        light = light_pickable(w, v.path, light, row, weighted);
     else
         weighted = emits & !emits;
     EmitterHit e = emitter_hit(light, lit_from(v.path), v.path.direction, v.surface.p, weighted);

@@ -12,10 +12,15 @@ FN Real beckmann_d(vec3 h, Real alpha_u, Real alpha_v) {
     return e * R(INV_PI) / (scale * z_squared);
 }
 
+/// Across the normal, of a direction stretched by the roughness: over w.z its slope.
+FN Real stretched_across(vec3 w, Real alpha_u, Real alpha_v) {
+    return sqrtR(square(alpha_u * w.x) + square(alpha_v * w.y));
+}
+
 /// Smith masking of Beckmann, the rational approximation of Walter et al. 2007 (0.35 % from the
 /// exact form) in a = 1 / slope.
 FN Real beckmann_g1(vec3 w, Real alpha_u, Real alpha_v) {
-    Real across = sqrtR(square(alpha_u * w.x) + square(alpha_v * w.y));
+    Real across = stretched_across(w, alpha_u, alpha_v);
     Mask sloped = across > R(0.);
     Real a = w.z / sel(sloped, across, R(1.));
     Real g = a * (R(3.535) + R(2.181) * a) / (R(1.) + a * (R(2.276) + R(2.577) * a));
@@ -34,7 +39,7 @@ FN SeenSlopes beckmann_seen_slopes(vec3 wo, Real alpha_u, Real alpha_v) {
     SeenSlopes v;
     v.length = stretched_length(wo, alpha_u, alpha_v);
     v.cosine = wo.z / v.length;
-    v.sine = sqrtR(square(alpha_u * wo.x) + square(alpha_v * wo.y)) / v.length;
+    v.sine = stretched_across(wo, alpha_u, alpha_v) / v.length;
     v.edge = v.cosine / v.sine;
     v.at_edge = exp_negative(-square(v.edge));
     Real beyond = v.at_edge * scaled_erfc(v.edge);

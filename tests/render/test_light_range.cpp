@@ -28,16 +28,8 @@ Scene every_light() {
 Scene times(Scene scene, double factor) {
     for (Shape& shape : scene.shapes)
         if (shape.radiance) *shape.radiance *= factor;
-    auto brighten = [factor](auto& e) {
-        if constexpr (requires { e.intensity; })
-            e.intensity *= factor;
-        else if constexpr (requires { e.irradiance; })
-            e.irradiance *= factor;
-        else
-            e.radiance *= factor;
-    };
     for (Emitter& emitter : scene.emitters)
-        std::visit(brighten, emitter);
+        strength_of(emitter) *= factor;
     return scene;
 }
 

@@ -38,17 +38,7 @@ void leave_lights(Scene& scene, Stays stays) {
     for (Shape& shape : scene.shapes)
         if (shape.radiance && !stays(*shape.radiance))
             shape.radiance = Rgb(0), shape.radiance_texture = {};
-    std::erase_if(scene.emitters, [&](const Emitter& e) {
-        auto power = [](const auto& x) {
-            if constexpr (requires { x.intensity; })
-                return x.intensity;
-            else if constexpr (requires { x.irradiance; })
-                return x.irradiance;
-            else
-                return x.radiance;
-        };
-        return !stays(std::visit(power, e));
-    });
+    std::erase_if(scene.emitters, [&](Emitter& e) { return !stays(strength_of(e)); });
 }
 inline void leave_light(Scene& scene, const Light& light) {
     leave_lights(scene, [&](const Rgb& power) {

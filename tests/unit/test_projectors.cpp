@@ -255,28 +255,30 @@ TEST_CASE("Projectors: what cannot be one is refused with its line", "[emitter]"
     for (const char* fov : {"0", "180", "-5", "200"})
         CHECK_THAT(refused("projector", fmt::format("<float name='fov' value='{}'/>", fov)),
                    Contains("scene.xml:3") && Contains("less than 180"));
-    CHECK_THAT(refused("projector", image("irradiance", "none.pfm")),
-               Contains("scene.xml:3") && Contains("none.pfm"));
-    CHECK_THAT(refused("projector", "<float name='scale' value='-1'/>"),
-               Contains("scene.xml:3") && Contains("scale"));
-    CHECK_THAT(refused("projector", "<float name='near_clip' value='1'/>"),
-               Contains("scene.xml:3") && Contains("near_clip"));
-    CHECK_THAT(refused("projector", "<float name='fov' value='9'/>\n"
-                                    "<string name='focal_length' value='50mm'/>"),
-               Contains("scene.xml:4") && Contains("one or the other"));
-    CHECK_THAT(refused("projector", "<transform name='to_world'><scale x='2'/></transform>"),
-               Contains("scene.xml:3") && Contains("deforms the picture"));
-    const std::string attribute = "<string name='name' value='vertex_color'/></texture>";
-    CHECK_THAT(
-        refused("projector", "<texture name='irradiance' type='mesh_attribute'>" + attribute),
-        Contains("scene.xml:3") && Contains("accepted: bitmap, checkerboard"));
-    CHECK_THAT(refused("spot", "<texture name='texture' type='mesh_attribute'>" + attribute),
-               Contains("scene.xml:3") && Contains("accepted: bitmap, checkerboard"));
-    CHECK_THAT(refused("spot", "<float name='cutoff_angle' value='90'/>\n"
-                               "<texture name='texture' type='checkerboard'/>"),
-               Contains("scene.xml:3") && Contains("less than 90 degrees"));
-    CHECK_THAT(refused("spot", "<texture name='intensity' type='checkerboard'/>"),
-               Contains("scene.xml:3") && Contains("intensity"));
+    const std::string attribute =
+        "type='mesh_attribute'><string name='name' value='vertex_color'/></texture>";
+    const struct {
+        const char* type;
+        std::string inside, place, what;
+    } cases[] = {
+        {"projector", image("irradiance", "none.pfm"), "scene.xml:3", "none.pfm"},
+        {"projector", "<float name='scale' value='-1'/>", "scene.xml:3", "scale"},
+        {"projector", "<float name='near_clip' value='1'/>", "scene.xml:3", "near_clip"},
+        {"projector", "<float name='fov' value='9'/>\n<string name='focal_length' value='50mm'/>",
+         "scene.xml:4", "one or the other"},
+        {"projector", "<transform name='to_world'><scale x='2'/></transform>", "scene.xml:3",
+         "deforms the picture"},
+        {"projector", "<texture name='irradiance' " + attribute, "scene.xml:3",
+         "accepted: bitmap, checkerboard"},
+        {"spot", "<texture name='texture' " + attribute, "scene.xml:3",
+         "accepted: bitmap, checkerboard"},
+        {"spot",
+         "<float name='cutoff_angle' value='90'/>\n<texture name='texture' type='checkerboard'/>",
+         "scene.xml:3", "less than 90 degrees"},
+        {"spot", "<texture name='intensity' type='checkerboard'/>", "scene.xml:3", "intensity"},
+    };
+    for (const auto& c : cases)
+        CHECK_THAT(refused(c.type, c.inside), Contains(c.place) && Contains(c.what));
     Scene dark = load_body(emitter("projector", "<texture name='irradiance' type='checkerboard'>"
                                                 "<float name='color0' value='-1'/></texture>"));
     CHECK_THROWS_WITH(make_device_scene(dark),

@@ -203,7 +203,7 @@ TEST_CASE("Materials: white furnace: nothing gives more energy than it receives"
         auto m = make_material<F32>(c);
         for (f32::vec3 wo : viewer_directions(c)) {
             Mean energy[3];
-            for (int n = 0; n < 20000; n++) {
+            for (int n = 0; n < 50000; n++) {
                 auto s = bsdf_sample(m, wo, random.square<F32>(), float(random.unit()));
                 // Radiance scaled at the interface is turned back into power.
                 auto power = f32::scale3(s.weight, s.eta * s.eta);

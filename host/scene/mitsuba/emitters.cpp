@@ -179,8 +179,7 @@ constexpr PluginTable<EmitterReader, 7> emitter_plugins = {{{"point", read_point
 void read_sampling_weight(Properties& p) {
     if (p.number("sampling_weight", 1.0) != 1.0)
         p.note("sampling_weight", "\"sampling_weight\" is not used, emitters are picked by what "
-                                  "they send; only the noise "
-                                  "differs");
+                                  "they send; only the noise differs");
 }
 
 } // namespace

@@ -18,6 +18,18 @@ namespace parhelion::mitsuba {
 
 namespace {
 
+glm::dmat4 read_camera_to_world(Properties& p) {
+    constexpr double tolerance = 1e-3; // as in Mitsuba
+    const glm::dmat4 to_world = p.transform("to_world");
+    const glm::dmat3 m(to_world);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j <= i; ++j)
+            if (!(std::abs(glm::dot(m[i], m[j]) - (i == j ? 1.0 : 0.0)) < tolerance))
+                p.refuse_value("to_world", "a transform with scale or shear",
+                               "rotation, translation, mirror");
+    return to_world;
+}
+
 /// "50" or "50mm".
 double read_focal_length(Properties& p) {
     std::string text = p.text("focal_length", "50mm");
@@ -45,18 +57,6 @@ void read_field_of_view(Properties& p, Camera& camera) {
 }
 
 namespace {
-
-glm::dmat4 read_camera_to_world(Properties& p) {
-    constexpr double tolerance = 1e-3; // as in Mitsuba
-    const glm::dmat4 to_world = p.transform("to_world");
-    const glm::dmat3 m(to_world);
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j <= i; ++j)
-            if (!(std::abs(glm::dot(m[i], m[j]) - (i == j ? 1.0 : 0.0)) < tolerance))
-                p.refuse_value("to_world", "a transform with scale or shear",
-                               "rotation, translation, mirror");
-    return to_world;
-}
 
 /// Near and far plane, and what does not change the picture.
 void read_depths(Properties& p, Camera& camera) {
