@@ -126,16 +126,16 @@ void append(std::vector<float>& values, const Rows& rows) {
 /// on everything, and lets through as much of that as of single scattering.
 std::vector<float> coat_tables(const f64::Material& m, int azimuths, bool compensated) {
     RoughSide side{m, true, f64::material_interface(m, true)};
-    Rows sent_on = table(side, azimuths);
     side.sent = Sent::refracted;
     Rows let_through = table(side, azimuths);
-    for (std::size_t row = 0; row < sent_on.size(); row++)
-        for (std::size_t i = 0; i < sent_on[row].size(); i++) {
-            if (compensated)
+    Rows sent_on(let_through.size(), std::vector<double>(let_through.front().size(), 1.0));
+    if (compensated) {
+        side.sent = Sent::all;
+        sent_on = table(side, azimuths);
+        for (std::size_t row = 0; row < sent_on.size(); row++)
+            for (std::size_t i = 0; i < sent_on[row].size(); i++)
                 let_through[row][i] /= sent_on[row][i];
-            else
-                sent_on[row][i] = 1.0;
-        }
+    }
     std::vector<float> values;
     append(values, sent_on);
     append(values, let_through);

@@ -14,48 +14,59 @@
 namespace parhelion {
 namespace {
 
-struct Normal {
-    f64::vec3 h;
-    double weight;
+/// The visible normals of one azimuth. Drawn as those of GGX, Beckmann's too: an integrand of u
+/// and v as smooth as its.
+struct Slice {
+    const RoughSide& side;
+    f64::vec3 wo;
+    f64::vec3 stretched;
+    f64::SinCos azimuth;
 };
 
-/// Drawn by the visible normals of GGX, Beckmann's too: an integrand of u and v as smooth as its.
-Normal normal_at(const f64::Material& m, f64::vec3 wo, double u, double v) {
-    f64::vec3 h = f64::ggx_sample_visible(wo, m.alpha_u, m.alpha_v, {u, v});
-    if (!f64::is_beckmann(m)) return {h, 1.0};
-    return {h,
-            f64::microfacet_visible_d(m, wo, h) / f64::ggx_visible_d(wo, h, m.alpha_u, m.alpha_v)};
+f64::vec3 normal_at(const Slice& slice, double v) {
+    const f64::Material& m = slice.side.material;
+    return f64::ggx_visible_normal(slice.stretched, slice.azimuth, v, m.alpha_u, m.alpha_v);
 }
 
-double share_sent_on(const RoughSide& side, f64::vec3 wo, double u, double v) {
-    Normal n = normal_at(side.material, wo, u, v);
-    double cosine = f64::dot3(wo, n.h);
+double weight_of(const Slice& slice, f64::vec3 h) {
+    const f64::Material& m = slice.side.material;
+    if (!f64::is_beckmann(m)) return 1.0;
+    return f64::microfacet_visible_d(m, slice.wo, h) /
+           f64::ggx_visible_d(slice.wo, h, m.alpha_u, m.alpha_v);
+}
+
+double share_sent_on(const Slice& slice, double v) {
+    const RoughSide& side = slice.side;
+    f64::vec3 h = normal_at(slice, v);
+    double cosine = f64::dot3(slice.wo, h);
     if (!(cosine > 0.0)) return 0.0;
-    f64::vec3 reflected = f64::reflect_about(wo, n.h);
+    double weight = weight_of(slice, h);
+    f64::vec3 reflected = f64::reflect_about(slice.wo, h);
     double unmasked = reflected.z > 0.0 ? f64::microfacet_g1(side.material, reflected) : 0.0;
-    if (!side.is_interface) return n.weight * unmasked;
+    if (!side.is_interface) return weight * unmasked;
     f64::Fresnel f = f64::fresnel_dielectric(cosine, side.face);
     double share = side.sent == Sent::refracted ? 0.0 : f.reflectance * unmasked;
-    f64::vec3 refracted = f64::refract_about(wo, n.h, cosine, f.g, side.face);
+    f64::vec3 refracted = f64::refract_about(slice.wo, h, cosine, f.g, side.face);
     if (refracted.z < 0.0 && side.sent != Sent::reflected) {
         refracted.z = -refracted.z;
         share += f.transmittance * f64::microfacet_g1(side.material, refracted);
     }
-    return n.weight * share;
+    return weight * share;
 }
 
 enum WhatLeaves { nothing = 0, reflection = 1, refraction = 2, inner_refraction = 4 };
 
 /// Which of reflection and refraction there is above and below the surface, for a normal.
-int what_leaves(const RoughSide& side, f64::vec3 wo, double u, double v) {
-    f64::vec3 h = f64::ggx_sample_visible(wo, side.material.alpha_u, side.material.alpha_v, {u, v});
-    double cosine = f64::dot3(wo, h);
+int what_leaves(const Slice& slice, double v) {
+    const RoughSide& side = slice.side;
+    f64::vec3 h = normal_at(slice, v);
+    double cosine = f64::dot3(slice.wo, h);
     if (!(cosine > 0.0)) return nothing;
-    int leaves = f64::reflect_about(wo, h).z > 0.0 ? reflection : nothing;
+    int leaves = f64::reflect_about(slice.wo, h).z > 0.0 ? reflection : nothing;
     if (!side.is_interface) return leaves;
     double g = f64::fresnel_dielectric(cosine, side.face).g;
     if (!(g > 0.0)) return leaves;
-    bool below = f64::refract_about(wo, h, cosine, g, side.face).z < 0.0;
+    bool below = f64::refract_about(slice.wo, h, cosine, g, side.face).z < 0.0;
     return leaves | (below ? refraction : inner_refraction);
 }
 
@@ -70,10 +81,10 @@ double between_kinks(const F& f, double low, double high) {
 }
 
 /// Integral over v for one u.
-double over_heights(const RoughSide& side, f64::vec3 wo, double u) {
+double over_heights(const Slice& slice) {
     constexpr int steps = 16, halvings = 16;
-    auto share = [&](double v) { return share_sent_on(side, wo, u, v); };
-    auto leaves = [&](double v) { return what_leaves(side, wo, u, v); };
+    auto share = [&](double v) { return share_sent_on(slice, v); };
+    auto leaves = [&](double v) { return what_leaves(slice, v); };
     double sum = 0.0, start = 0.0, at = 0.0;
     int here = leaves(0.0);
     auto end_piece = [&](double end) {
@@ -145,7 +156,11 @@ f64::Material widened(const MaterialRecord& record) {
 double single_scattering(const RoughSide& side, f64::vec3 wo, bool symmetric) {
     constexpr double tolerance = 3e-4; // of the whole, for each piece
     constexpr int depth = 12;
-    auto f = [&](double u) { return Sample{u, over_heights(side, wo, u)}; };
+    const f64::vec3 stretched =
+        f64::stretched_direction(wo, side.material.alpha_u, side.material.alpha_v);
+    auto f = [&](double u) {
+        return Sample{u, over_heights({side, wo, stretched, f64::sincos_turns(u)})};
+    };
     const double end = symmetric ? 0.5 : 1.0;
     constexpr int pieces = 4;
     std::vector<Sample> samples;

@@ -55,16 +55,26 @@ FN Real ggx_visible_d(vec3 wo, vec3 h, Real alpha_u, Real alpha_v) {
     return 2.f * d.over / (d.under * (wo.z + stretched_length(wo, alpha_u, alpha_v)));
 }
 
-/// A visible normal of GGX for the view direction wo, by spherical caps (Dupuy and Benyoub 2023).
-/// pdf(h) = G1(wo) D(h) max(0, wo.h) / wo.z
-FN vec3 ggx_sample_visible(vec3 wo, Real alpha_u, Real alpha_v, vec2 u) {
-    vec3 stretched = scale3(v3(alpha_u * wo.x, alpha_v * wo.y, wo.z),
-                            R(1.) / stretched_length(wo, alpha_u, alpha_v));
-    SinCos phi = sincos_turns(u.x);
-    Real z = (R(1.) - u.y) * (R(1.) + stretched.z) - stretched.z;
+/// wo stretched by the roughness into a direction among the normals of a sphere.
+FN vec3 stretched_direction(vec3 wo, Real alpha_u, Real alpha_v) {
+    return scale3(v3(alpha_u * wo.x, alpha_v * wo.y, wo.z),
+                  R(1.) / stretched_length(wo, alpha_u, alpha_v));
+}
+
+/// The visible normal of GGX at azimuth phi and height u of the spherical cap that a stretched
+/// direction sees.
+FN vec3 ggx_visible_normal(vec3 stretched, SinCos phi, Real u, Real alpha_u, Real alpha_v) {
+    Real z = (R(1.) - u) * (R(1.) + stretched.z) - stretched.z;
     Real r = sqrt_nonnegative((R(1.) - z) * (R(1.) + z));
     vec3 half_vector = add3(v3(r * phi.cosine, r * phi.sine, z), stretched);
     // z + stretched.z = (1 - u)(1 + stretched.z) > 0: the normal is never below the horizon.
-    return normalize3(v3(alpha_u * half_vector.x, alpha_v * half_vector.y,
-                         (R(1.) - u.y) * (R(1.) + stretched.z)));
+    return normalize3(
+        v3(alpha_u * half_vector.x, alpha_v * half_vector.y, (R(1.) - u) * (R(1.) + stretched.z)));
+}
+
+/// A visible normal of GGX for the view direction wo, by spherical caps (Dupuy and Benyoub 2023).
+/// pdf(h) = G1(wo) D(h) max(0, wo.h) / wo.z
+FN vec3 ggx_sample_visible(vec3 wo, Real alpha_u, Real alpha_v, vec2 u) {
+    return ggx_visible_normal(stretched_direction(wo, alpha_u, alpha_v), sincos_turns(u.x), u.y,
+                              alpha_u, alpha_v);
 }
