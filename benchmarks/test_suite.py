@@ -67,6 +67,17 @@ class Scenes(unittest.TestCase):
         self.assertEqual([s["material"]["kind"] for s in spheres], ["glass", "metal"])
         self.assertEqual(box["max_depth"], 10)
 
+    def test_textures_and_skies_are_translated(self):
+        hall = mitsuba_xml.read_scene(HERE.parent / "scenes/sunlit/hall.xml")
+        textures = [m["material"]["texture"] for m in hall["meshes"] if "texture" in m["material"]]
+        self.assertEqual([sorted(t) for t in textures],
+                         [["image", "to_uv"], ["colours", "to_uv"], ["image", "to_uv"]])
+        self.assertEqual([t["to_uv"][0][0] for t in textures], [6, 10, 6])
+        self.assertEqual(textures[1]["colours"], [(0.12, 0.25, 0.3), (0.75, 0.7, 0.6)])
+        self.assertEqual(hall["envmap"]["scale"], 1.5)
+        self.assertTrue(pathlib.Path(hall["envmap"]["image"]).is_file())
+        self.assertEqual(hall["spheres"][1]["centre"], (0.9, 0.55, 0.6))
+
     def test_what_is_not_known_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             path = scenes.material_room(pathlib.Path(folder), "rough glass")
@@ -80,7 +91,8 @@ class Scenes(unittest.TestCase):
     def test_made_scenes_are_xml(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            for path in (scenes.many_materials(folder), scenes.many_lamps(folder, 10), scenes.hills(folder, 800)):
+            for path in (scenes.many_materials(folder), scenes.many_lamps(folder, 10), scenes.hills(folder, 800),
+                         scenes.textured_room(folder, 16)):
                 xml.parse(path)
             mesh = (folder / "hills-800.ply").read_bytes()
             self.assertEqual(len(mesh.split(b"end_header\n", 1)[1]), 21 * 21 * 12 + 800 * 13)

@@ -21,6 +21,7 @@ class Case:
     truth: tuple | None = None  # the colour of every pixel, where it is known
     relative_levels: bool = False  # levels are in units of the reference's mean
     pbrt: str | None = None  # its name in PBRT
+    least: float = 4         # how many times as fast as Cycles and Mitsuba's LLVM variant we want to be
 
 
 # pbrt-v4, one core of this kind of machine, 128x128: (spp, seconds, RMSE to the mean of its own 512-spp images).
@@ -37,16 +38,24 @@ PBRT = {
 }
 
 LEVELS = (0.04, 0.02, 0.01)
+RELATIVE_LEVELS = (0.32, 0.16, 0.08)
+TEXTURED_LEAST = 3
 REAL = [
     ("Cornell box", "cornell-box/scene.xml", "cornell"),
     ("glass and metal", "glass-and-metal/scene.xml", "spheres"),
     ("bunny, sky", "bunny/env.xml", "bunny_env"),
     ("bunny, point light", "bunny/point.xml", "bunny_point"),
 ]
+TEXTURED = [
+    ("court in the sun", "sunlit/scene.xml"),
+    ("hall of tiles", "sunlit/hall.xml"),
+]
 # Below the shared data; rendered at 128 x 128 with the filter they ask for.
 SHARED = [
-    ("Mitsuba's Cornell box", "scenes-mitsuba/cornell-box/scene_path.xml"),
-    ("Mitsuba 2's Cornell box", "scenes-mitsuba/cbox-m2/scene.xml"),
+    ("Mitsuba's Cornell box", "scenes-mitsuba/cornell-box/scene_path.xml", 4),
+    ("Mitsuba 2's Cornell box", "scenes-mitsuba/cbox-m2/scene.xml", 4),
+    ("living room", "scenes-mitsuba/living-room/scene.xml", TEXTURED_LEAST),
+    ("staircase", "scenes-mitsuba/staircase2/scene.xml", TEXTURED_LEAST),
 ]
 # Every pixel of these is one colour (scenes/README.md has the formulas).
 CLOSED_FORM = [
@@ -63,9 +72,11 @@ def cases(context):
     """Those that can be rendered here, and why others cannot."""
     made = [Case(name, context.scene(file), SIZE, LEVELS, pbrt=pbrt) for name, file, pbrt in REAL]
     absent = []
-    for name, file in SHARED:
+    made += [Case(name, context.scene(file), SIZE, RELATIVE_LEVELS, relative_levels=True, least=TEXTURED_LEAST)
+             for name, file in TEXTURED]
+    for name, file, least in SHARED:
         if context.data and (context.data / file).exists():
-            made.append(Case(name, context.data / file, SIZE, (0.32, 0.16, 0.08), relative_levels=True))
+            made.append(Case(name, context.data / file, SIZE, RELATIVE_LEVELS, relative_levels=True, least=least))
         else:
             absent.append(f"{name}: skipped, PARHELION_DATA has no {file}")
     made += [Case(name, context.scene(f"closed_form/{folder}/scene.xml"), CLOSED_FORM_SIZE, (0.08, 0.04, 0.02), truth=truth,

@@ -45,7 +45,9 @@ def render(result, table, plots):
                    [(r["name"], r["mpaths_per_second"], r["mrays_per_second"], r["vertices_per_path"],
                      r["pool_bytes_per_path"], *(100 * r["share"][s] for s in stages), *(r["ns"][s] for s in stages))
                     for r in result["scenes"]]),
-             "<p>ns: of generate and accumulate a path, of intersect and shade a vertex, of shadow a shadow ray.</p>"]
+             "<p>ns: of generate and accumulate a path, of intersect and shade a vertex, of shadow a shadow ray.</p>",
+             table(["what shading a vertex takes more with", "ns", "ns without"],
+                   [(r["name"], r["ns"], r["shade_ns"]) for r in result["lookups"]])]
     drawings = [svg.bars("share of each stage", "share", [(r["name"], [r["share"][s] for s in stages])
                                                           for r in result["scenes"][:5]], stages)]
     for key, x, label in (("resolution", "size", "pixels a side"), ("triangles", "primitives", "triangles"),

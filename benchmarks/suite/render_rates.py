@@ -75,6 +75,7 @@ def rates(context):
         say(f"render: {triangles} triangles")
         row = _row(f"{triangles} triangles", render(context, scenes.hills(folder, triangles), spp=spp))
         result["triangles"].append(row)
+    result["lookups"] = _lookups(context, spp)
     if not context.quick:
         checks.append(check("render, 10 M triangles: peak memory of the process, GiB",
                             result["triangles"][-1]["host_peak_bytes"] / 2**30, most=24))
@@ -95,6 +96,27 @@ def _checks_of_stages(rows):
                     note="the prototype's")
               for name, most in PROTOTYPE_NS.items()
               for scene in (f"room of {name}", name) if scene in by_name)]
+
+
+def _lookups(context, spp):
+    """What textures and environment maps take: nanoseconds of shading by which a vertex is dearer than without, the
+    median of pairs of runs."""
+    folder = context.folder("scenes")
+    plain_room, plain_hills = scenes.material_room(folder, "diffuse"), scenes.hills(folder, 10_000)
+    sky = scenes.hills(folder, 10_000, scenes.sky_of(context.scene("sunlit/images/sky.pfm")), "hills-in-the-sun")
+    pairs = [(f"a texture of {side}x{side}, 8-bit RGB, bilinear", plain_room, scenes.textured_room(folder, side))
+             for side in (64, 4096)]
+    pairs.append(("an environment map of 128x65, sampled and met, instead of a uniform sky", plain_hills, sky))
+    rows = []
+    for name, plain, dearer in pairs:
+        say(f"render: {name}")
+        for scene in (plain, dearer):
+            render(context, scene, spp=1, size=64)  # compiles
+        runs = [[_row("", render(context, scene, spp=spp, size=256))["ns"]["shade"] for scene in (plain, dearer)]
+                for _ in range(1 if context.quick else 5)]
+        rows.append({"name": name, "ns": fits.median([b - a for a, b in runs]),
+                     "shade_ns": fits.median([a for a, _ in runs])})
+    return rows
 
 
 def _threads(context, scene, spp):

@@ -1,6 +1,9 @@
 """Scenes made by code: what no file of the repository has in the wanted number or kind."""
 import array
+import hashlib
 import math
+import struct
+import zlib
 
 HEAD = """<scene version="3.0.0">
     <default name="width" value="512"/>
@@ -70,10 +73,37 @@ def _spheres(materials):
 
 def material_room(folder, name):
     """A lit room of one material with 27 spheres of it; glass spheres stand in a diffuse room."""
-    material = MATERIALS[name]
-    wall = MATERIALS["diffuse"] if "glass" in name else material
+    return _room_of(folder, name, MATERIALS[name], MATERIALS["diffuse"] if "glass" in name else MATERIALS[name])
+
+
+def _room_of(folder, name, material, wall):
     lamp = LAMP.format(size=0.5, x=0, z=0, radiance=10)
     return _write(folder, f"room-{name.replace(' ', '-')}", [*_room(wall), lamp, *_spheres([material])])
+
+
+def textured_room(folder, side):
+    """The diffuse room, its reflectance from an image of that many texels a side, of the same mean."""
+    image = folder / f"noise-{side}.png"
+    if not image.exists():
+        _write_noise(image, side)
+    material = ('<bsdf type="twosided"><bsdf type="diffuse"><texture name="reflectance" type="bitmap"><string name="filename" '
+                f'value="{image.name}"/><boolean name="raw" value="true"/></texture></bsdf></bsdf>')
+    return _room_of(folder, f"texture {side}", material, material)
+
+
+def _write_noise(path, side):
+    """An 8-bit RGB PNG of pseudo-random texels about the diffuse room's reflectance."""
+    random = array.array("B", hashlib.shake_128(b"texels").digest(side * 3))
+    mean = (191, 153, 115) * side
+    head = struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)
+    rows = []
+    for y in range(side):
+        turned = random[3 * (37 * y % side):] + random[:3 * (37 * y % side)]
+        rows.append(b"\0" + bytes(m + r % 64 - 32 for m, r in zip(mean, turned)))
+    body = zlib.compress(b"".join(rows), 1)
+    chunks = ((b"IHDR", head), (b"IDAT", body), (b"IEND", b""))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks))
 
 
 def many_materials(folder):
@@ -94,8 +124,15 @@ def many_lamps(folder, count):
     return _write(folder, f"lamps-{count}", [*_room(diffuse), *lamps, *_spheres([diffuse])])
 
 
-def hills(folder, triangles):
-    """Waves of about that many triangles under a uniform sky."""
+UNIFORM_SKY = '<emitter type="constant"><rgb name="radiance" value="1"/></emitter>'
+
+
+def sky_of(image):
+    return f'<emitter type="envmap"><string name="filename" value="{image}"/></emitter>'
+
+
+def hills(folder, triangles, sky=UNIFORM_SKY, name="hills"):
+    """Waves of about that many triangles under a sky."""
     cells = max(2, round(math.sqrt(triangles / 2)))
     mesh = folder / f"hills-{triangles}.ply"
     if not mesh.exists():
@@ -103,8 +140,7 @@ def hills(folder, triangles):
     head = HEAD.format(fov=50, origin="0, 3.5, 7.5", target="0, 0, 0")
     shape = (f'<shape type="ply"><string name="filename" value="{mesh.name}"/><boolean name="face_normals" '
              f'value="true"/>{MATERIALS["diffuse"]}</shape>')
-    sky = '<emitter type="constant"><rgb name="radiance" value="1"/></emitter>'
-    return _write(folder, f"hills-{triangles}", [head, shape, sky])
+    return _write(folder, f"{name}-{triangles}", [head, shape, sky])
 
 
 def _write_hills(path, cells):

@@ -1,4 +1,5 @@
-"""Writes the images of this scene: a sky with a small sun (PFM), tiles, their heights and a lattice (PNG); deterministic, no input."""
+"""Writes the images of these scenes: a sky with a small sun (PFM) and one without (HDR), tiles, their heights and a lattice (PNG);
+deterministic, no input."""
 
 import math
 import pathlib
@@ -15,10 +16,13 @@ def mixed(a, b, t):
     return [x + (y - x) * t for x, y in zip(a, b)]
 
 
-def sky_texel(x, y):
+def sunny(x, y):
+    inside = SUN[0] <= x < SUN[0] + 2 and SUN[1] <= y < SUN[1] + 2
+    return [9000.0, 8100.0, 6600.0] if inside else cloudy(x, y)
+
+
+def cloudy(x, y):
     """Linear sRGB: blue overhead, pale at the horizon, clouds, earth below."""
-    if SUN[0] <= x < SUN[0] + 2 and SUN[1] <= y < SUN[1] + 2:
-        return [9000.0, 8100.0, 6600.0]
     height = 1 - 2 * y / (SKY_HEIGHT - 1)
     if height < 0:
         return mixed([0.22, 0.2, 0.17], [0.1, 0.08, 0.06], min(1.0, -3 * height))
@@ -30,10 +34,21 @@ def sky_texel(x, y):
     return mixed(mixed(blue, [1.1, 1.1, 1.1], cover), [2.5, 2.2, 1.8], near_sun)
 
 
-def sky():
+def pfm(texel):
     rows = reversed(range(SKY_HEIGHT))
-    values = [c for y in rows for x in range(SKY_WIDTH) for c in sky_texel(x, y)]
+    values = [c for y in rows for x in range(SKY_WIDTH) for c in texel(x, y)]
     return f"PF\n{SKY_WIDTH} {SKY_HEIGHT}\n-1.0\n".encode() + struct.pack(f"<{len(values)}f", *values)
+
+
+def rgbe(color):
+    """Three mantissas of 8 bits and their common exponent."""
+    exponent = math.frexp(max(color))[1]
+    return [min(255, int(c * 2.0 ** (8 - exponent))) for c in color] + [exponent + 128]
+
+
+def hdr(texel):
+    head = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {SKY_HEIGHT} +X {SKY_WIDTH}\n"
+    return head.encode() + bytes(b for y in range(SKY_HEIGHT) for x in range(SKY_WIDTH) for b in rgbe(texel(x, y)))
 
 
 def png(components, rows):
@@ -82,7 +97,8 @@ def lattice(x, y):
 def main():
     FOLDER.mkdir(exist_ok=True)
     texels = range(SIDE)
-    (FOLDER / "sky.pfm").write_bytes(sky())
+    (FOLDER / "sky.pfm").write_bytes(pfm(sunny))
+    (FOLDER / "clouds.hdr").write_bytes(hdr(cloudy))
     (FOLDER / "tiles.png").write_bytes(png(3, [[c for x in texels for c in tile(x, y)] for y in texels]))
     (FOLDER / "heights.png").write_bytes(png(1, [[height(x, y) for x in texels] for y in texels]))
     (FOLDER / "lattice.png").write_bytes(png(1, [[lattice(x, y) for x in texels] for y in texels]))

@@ -17,24 +17,58 @@ from job_list import run_jobs  # noqa: E402
 from mitsuba_xml import Refused, read_scene  # noqa: E402
 
 
+KINDS = {"diffuse": "ShaderNodeBsdfDiffuse", "light": "ShaderNodeEmission", "glass": "ShaderNodeBsdfGlass",
+         "metal": "ShaderNodeBsdfGlossy"}
+
+
 def shader(material, name):
     made = bpy.data.materials.new(name)
     made.use_nodes = True
-    nodes = made.node_tree.nodes
+    nodes, links = made.node_tree.nodes, made.node_tree.links
     nodes.clear()
-    kinds = {"diffuse": "ShaderNodeBsdfDiffuse", "light": "ShaderNodeEmission", "glass": "ShaderNodeBsdfGlass",
-             "metal": "ShaderNodeBsdfGlossy"}
-    node = nodes.new(kinds[material["kind"]])
-    node.inputs["Color"].default_value = (*material["colour"], 1.0)
+    node = nodes.new(KINDS[material["kind"]])
+    if "texture" in material:
+        links.new(texture(nodes, links, material["texture"]), node.inputs["Color"])
+    else:
+        node.inputs["Color"].default_value = (*material["colour"], 1.0)
     if material["kind"] == "glass":
-        node.distribution, node.inputs["IOR"].default_value = "SHARP", material["ior"]
+        make_smooth(node)
+        node.inputs["IOR"].default_value = material["ior"]
     elif material["kind"] == "metal":
         node.distribution = "GGX"
         node.inputs["Roughness"].default_value = math.sqrt(material["alpha"])
     elif material["kind"] == "light":
         node.inputs["Strength"].default_value = 1.0
-    made.node_tree.links.new(node.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    links.new(node.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
     return made
+
+
+def make_smooth(glass):
+    """Blender up to 3.6 has a distribution for it, later ones take roughness 0."""
+    if "SHARP" in glass.bl_rna.properties["distribution"].enum_items:
+        glass.distribution = "SHARP"
+    else:
+        glass.inputs["Roughness"].default_value = 0.0
+
+
+def texture(nodes, links, description):
+    """The colour output of a texture's node."""
+    place = nodes.new("ShaderNodeMapping")
+    links.new(nodes.new("ShaderNodeUVMap").outputs["UV"], place.inputs["Vector"])
+    to_uv = mathutils.Matrix(description["to_uv"])
+    (x, y, _), (across, up, _) = to_uv.to_translation(), to_uv.to_scale()
+    if "image" in description:  # its first row is at v = 0 in Mitsuba, at v = 1 here
+        node = nodes.new("ShaderNodeTexImage")
+        node.image = bpy.data.images.load(description["image"])
+        y, up = 1 - y, -up
+    else:
+        node = nodes.new("ShaderNodeTexChecker")
+        node.inputs["Scale"].default_value = 2.0  # its squares have side 1; that at the origin has the second colour
+        for name, colour in zip(("Color2", "Color1"), description["colours"]):
+            node.inputs[name].default_value = (*colour, 1.0)
+    place.inputs["Location"].default_value, place.inputs["Scale"].default_value = (x, y, 0), (across, up, 1)
+    links.new(place.outputs["Vector"], node.inputs["Vector"])
+    return node.outputs["Color"]
 
 
 def add_shapes(scene, collection):
@@ -42,6 +76,8 @@ def add_shapes(scene, collection):
         data = bpy.data.meshes.new(f"mesh{i}")
         data.from_pydata(mesh["vertices"], [], mesh["faces"])
         data.update()
+        if "texture" in mesh["material"]:
+            add_square_uvs(data)
         data.materials.append(shader(mesh["material"], f"mesh{i}"))
         collection.objects.link(bpy.data.objects.new(f"mesh{i}", data))
     for i, sphere in enumerate(scene["spheres"]):
@@ -50,6 +86,12 @@ def add_shapes(scene, collection):
         made.data.materials.append(shader(sphere["material"], f"sphere{i}"))
         for polygon in made.data.polygons:
             polygon.use_smooth = True
+
+
+def add_square_uvs(rectangle):
+    """Its four corners are those of the unit square."""
+    for loop, corner in zip(rectangle.loops, rectangle.uv_layers.new().data):
+        corner.uv = ((0, 0), (1, 0), (1, 1), (0, 1))[loop.vertex_index]
 
 
 def add_lights(scene, collection):
@@ -63,8 +105,28 @@ def add_lights(scene, collection):
         collection.objects.link(made)
     world = bpy.data.worlds.new("world")
     world.use_nodes = True
-    world.node_tree.nodes["Background"].inputs[0].default_value = (*scene["sky"], 1.0)
+    background = world.node_tree.nodes["Background"]
+    background.inputs["Color"].default_value = (*scene["sky"], 1.0)
+    if scene["envmap"]:
+        add_sky(world.node_tree, background, scene["envmap"])
     bpy.context.scene.world = world
+
+
+# From Mitsuba's directions of a sky, +y up, to those of Blender's, +z up, for which the images' columns agree.
+SKY_AXES = mathutils.Matrix(((0, 0, 1), (1, 0, 0), (0, 1, 0)))
+
+
+def add_sky(tree, background, envmap):
+    node, place = tree.nodes.new("ShaderNodeTexEnvironment"), tree.nodes.new("ShaderNodeMapping")
+    node.image = bpy.data.images.load(envmap["image"])
+    turn = SKY_AXES @ mathutils.Matrix(envmap["to_world"]).to_3x3().inverted()
+    place.inputs["Rotation"].default_value = turn.to_euler("XYZ")
+    tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"], place.inputs["Vector"])
+    tree.links.new(place.outputs["Vector"], node.inputs["Vector"])
+    tree.links.new(node.outputs["Color"], background.inputs["Color"])
+    background.inputs["Strength"].default_value = envmap["scale"]
+
+
 
 
 def add_camera(scene, collection):

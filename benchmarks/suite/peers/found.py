@@ -26,12 +26,18 @@ def mitsuba(context):
 
 
 def cycles(context):
+    """Of the `blender` command, or of a Python that has Blender as a module."""
     program = shutil.which("blender")
-    if not program:
-        return [], "Cycles: skipped, there is no blender (Debian's package blender)"
-    version = answer_of([program, "--version"]) and answer_of(["sh", "-c", f"'{program}' --version | head -n 1"])
-    prefix = (program, "-b", "--factory-startup", "-t", str(context.threads), "-P")
-    return [Peer("Cycles", version, prefix, "cycles_inside.py", {})], None
+    if program and not context.cycles:
+        version = answer_of(["sh", "-c", f"'{program}' --version | head -n 1"])
+        prefix = (program, "-b", "--factory-startup", "-t", str(context.threads), "-P")
+        return [Peer("Cycles", version, prefix, "cycles_inside.py", {}, separator=("--",))], None
+    python = context.cycles or "python3"
+    version = answer_of([python, "-c", "import bpy; print('Blender', bpy.app.version_string)"])
+    if not version:
+        return [], f"Cycles: skipped, there is no blender (Debian's package blender), and {python} cannot import bpy " \
+                   "(from PyPI; name another with --cycles)"
+    return [Peer("Cycles", version, (python,), "cycles_inside.py", {})], None
 
 
 def luxcore(context):

@@ -18,6 +18,8 @@ from mitsuba_xml import Refused, point, read_scene  # noqa: E402
 def material(name, m):
     """Properties of a material; its emission is a radiance."""
     key = f"scene.materials.{name}"
+    if "texture" in m:
+        raise Refused("textures (not translated for it)")
     if m["kind"] == "diffuse":
         return {f"{key}.type": ["matte"], f"{key}.kd": list(m["colour"])}
     if m["kind"] == "glass":
@@ -57,6 +59,8 @@ def build(description, size):
         key = f"scene.lights.p{i}"
         values.update({f"{key}.type": ["point"], f"{key}.position": list(lamp["position"]),
                        f"{key}.color": list(lamp["intensity"]), f"{key}.gain": [4 * math.pi] * 3})
+    if description["envmap"]:
+        raise Refused("environment maps (not translated for it)")
     if any(description["sky"]):
         values.update({"scene.lights.sky.type": ["constantinfinite"], "scene.lights.sky.color":
                        list(description["sky"])})

@@ -106,7 +106,9 @@ class Reader:
 
     def child(self, e, name, default=None):
         found = next((c for c in e if c.get("name") == name and c.tag != "transform"), None)
-        return default if found is None else found.get("value")
+        if found is None:
+            return default
+        return found.get("value") or " ".join(found.get(axis, "0") for axis in "xyz")
 
     def transform(self, e):
         m = identity()
@@ -121,6 +123,8 @@ class Reader:
         if kind == "twosided":
             return self.material(e.find("bsdf"))
         if kind == "diffuse":
+            if e.find("texture") is not None:
+                return {"kind": "diffuse", "texture": self.texture(e.find("texture"))}
             return {"kind": "diffuse", "colour": rgb(self.child(e, "reflectance", "0.5"))}
         if kind == "dielectric":
             ratio = float(self.child(e, "int_ior", 1.5046)) / float(self.child(e, "ext_ior", 1.000277))
@@ -131,6 +135,22 @@ class Reader:
                     "alpha": float(self.child(e, "alpha", 0.1))}
         raise Refused(f"bsdf {kind}")
 
+    def texture(self, e):
+        """{to_uv, and image or colours}: a bilinear, repeated sRGB image, or the two colours of a checkerboard whose
+        squares are half a unit wide."""
+        made = {"to_uv": self.transform(e)}
+        if any(made["to_uv"][i][k] for i in range(3) for k in range(3) if i != k):
+            raise Refused("a turned texture")
+        if e.get("type") == "checkerboard":
+            colours = [rgb(self.child(e, name, default)) for name, default in (("color0", "0.4"), ("color1", "0.2"))]
+            return {**made, "colours": colours}
+        if e.get("type") != "bitmap":
+            raise Refused(f"texture {e.get('type')}")
+        for name, only in (("filter_type", "bilinear"), ("wrap_mode", "repeat"), ("raw", "false")):
+            if self.child(e, name, only) != only:
+                raise Refused(f"a bitmap whose {name} is {self.child(e, name)}")
+        return {**made, "image": str(self.folder / self.child(e, "filename"))}
+
     def material_of(self, shape):
         own, ref = shape.find("bsdf"), shape.find("ref")
         if own is None and ref is not None:
@@ -138,7 +158,7 @@ class Reader:
         return self.material(own) if own is not None else {"kind": "diffuse", "colour": (0.5, 0.5, 0.5)}
 
     def mesh(self, shape):
-        """(vertices, faces) in world space."""
+        """(vertices, faces) in world space; a rectangle's corners are those of the unit square of uv in turn."""
         kind, m = shape.get("type"), self.transform(shape)
         if kind == "rectangle":
             vertices, faces = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [(0, 1, 2), (0, 2, 3)]
@@ -177,7 +197,7 @@ class Reader:
             raise Refused(f"integrator {integrator.get('type')}")
         depth = 2 if integrator.get("type") == "direct" else int(self.child(integrator, "max_depth", -1))
         scene = {"max_depth": UNLIMITED if depth < 0 else depth, "to_world": self.transform(sensor), "fov": float(self.child(sensor, "fov")), "meshes": [],
-                 "spheres": [], "points": [], "sky": (0.0, 0.0, 0.0)}
+                 "spheres": [], "points": [], "sky": (0.0, 0.0, 0.0), "envmap": None}
         for shape in self.root.findall("shape"):
             self._add_shape(scene, shape)
         for emitter in self.root.findall("emitter"):
@@ -191,6 +211,8 @@ class Reader:
             if any(item["material"].get("colour", (1,))):
                 raise Refused("surfaces that emit and reflect")
             item["material"] = {"kind": "light", "colour": rgb(self.child(emitter, "radiance"))}
+        if "texture" in item["material"] and shape.get("type") != "rectangle":
+            raise Refused(f"a texture on a {shape.get('type')}")
         if shape.get("type") == "sphere":
             if emitter is not None or shape.find("transform") is not None:
                 raise Refused("spheres that are transformed or emit")
@@ -203,6 +225,9 @@ class Reader:
     def _add_emitter(self, scene, emitter):
         if emitter.get("type") == "constant":
             scene["sky"] = rgb(self.child(emitter, "radiance", "1"))
+        elif emitter.get("type") == "envmap":
+            scene["envmap"] = {"image": str(self.folder / self.child(emitter, "filename")),
+                               "scale": float(self.child(emitter, "scale", 1)), "to_world": self.transform(emitter)}
         elif emitter.get("type") == "point":
             scene["points"].append({"position": rgb(self.child(emitter, "position", "0 0 0")),
                                     "intensity": rgb(self.child(emitter, "intensity", "1"))})

@@ -19,6 +19,7 @@ class Peer:
     warm_up: bool = False  # compiles on first use: each number of samples is rendered once before it counts
     most_spp: int = 1 << 20
     environment: dict = dataclasses.field(default_factory=dict)
+    separator: tuple = ()  # what stands before arguments that are the script's own
 
     def render(self, scene, size, threads, jobs, budget_seconds):
         """jobs: [{spp, seed, output}], samples ascending. Gives those that fitted the budget, with seconds and
@@ -28,7 +29,7 @@ class Peer:
         order = {**self.settings, "scene": str(scene), "size": size, "threads": threads, "warm_up": self.warm_up,
                  "budget_seconds": budget_seconds,
                  "jobs": [{**job, "output": str(job["output"])} for job in jobs]}
-        done = run([*self.prefix, HERE / self.script, *self.separator(), json.dumps(order)],
+        done = run([*self.prefix, HERE / self.script, *self.separator, json.dumps(order)],
                    self.environment, accepted=(0, 1, 3))
         results = [json.loads(line.split(" ", 1)[1]) for line in done.stdout.splitlines()
                    if line.startswith("RESULT ")]
@@ -39,9 +40,6 @@ class Peer:
         start = done.seconds - sum(r["busy_seconds"] for r in results)
         return [{**job, **r, "process_seconds": start + r["busy_seconds"] - r.get("warm_up_seconds", 0)}
                 for job, r in zip(jobs, results)]
-
-    def separator(self):
-        return ["--"] if "blender" in self.prefix[0] else []
 
 
 def answer_of(command, accepted=(0,)):
