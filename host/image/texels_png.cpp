@@ -26,7 +26,7 @@ public:
             file.refuse("not enough memory to read it");
         }
         png_set_read_fn(png_, this, read_some);
-        png_set_user_limits(png_, longest_texel_side, longest_texel_side);
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX); // what is too large, we say
     }
     ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
     PngReader(const PngReader&) = delete;
@@ -35,6 +35,10 @@ public:
     void read_header() {
         if (setjmp(png_jmpbuf(png_)) != 0) refuse();
         png_read_info(png_, info_);
+    }
+    /// Takes memory for a row.
+    void prepare_rows() {
+        if (setjmp(png_jmpbuf(png_)) != 0) refuse();
         set_transforms();
         png_read_update_info(png_, info_);
     }
@@ -94,6 +98,7 @@ TexelLayout layout_of_png(const ImageBytes& file) {
     if (layout.texels() / 8 > largest_gain * file.bytes.size())
         file.refuse(size_text(layout.width, layout.height) + " are too many for " +
                     std::to_string(file.bytes.size()) + " bytes of file");
+    png.prepare_rows();
     layout.channels = png.channels();
     layout.component = png.bits() == 16 ? TexelComponent::single : TexelComponent::byte;
     layout.srgb = true;
@@ -103,6 +108,7 @@ TexelLayout layout_of_png(const ImageBytes& file) {
 void read_png(const ImageBytes& file, const TexelLayout& layout, std::span<std::byte> to) {
     PngReader png(file);
     png.read_header();
+    png.prepare_rows();
     const std::size_t row_bytes = png.row_bytes();
     const bool wide = layout.component == TexelComponent::single;
     std::vector<std::uint16_t> words(wide ? layout.texels() * layout.channels : 0);

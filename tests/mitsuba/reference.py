@@ -1,5 +1,6 @@
 """Renders a case with Mitsuba 3 (scalar_rgb, one thread) in several seeds and keeps the result."""
 
+import contextlib
 import hashlib
 import json
 import pathlib
@@ -16,12 +17,27 @@ drjit.set_thread_count(1)
 SUPERSAMPLING = 12  # sub-pixels a side, for filters
 
 
+@contextlib.contextmanager
+def reading_threads():
+    """With one thread, Mitsuba's reader of EXR files never returns."""
+    drjit.set_thread_count(2)
+    try:
+        yield
+    finally:
+        drjit.set_thread_count(1)
+
+
 def load(scene, parameters, supersampling=1):
     """The scene with the robust intersection flag and a float32 film.
 
     Meshes are not merged (that would renumber primitives). With supersampling: a box filter and
     that many times the size in each direction.
     """
+    with reading_threads():
+        return _loaded(scene, parameters, supersampling)
+
+
+def _loaded(scene, parameters, supersampling):
     config = mitsuba.parser.ParserConfig("scalar_rgb")
     config.merge_meshes = False
     config.merge_equivalent = False
@@ -52,12 +68,9 @@ def channels_of(bitmap):
 
 
 def read_exr(path):
-    """An EXR file as channel name -> (H, W). With one thread, Mitsuba's reader never returns."""
-    drjit.set_thread_count(2)
-    try:
+    """An EXR file as channel name -> (H, W)."""
+    with reading_threads():
         return channels_of(mitsuba.Bitmap(str(path)))
-    finally:
-        drjit.set_thread_count(1)
 
 
 def filter_weights(kind, x, stddev=0.5, radius=1.0, B=1 / 3, C=1 / 3, lobes=3):

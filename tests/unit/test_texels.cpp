@@ -57,7 +57,8 @@ void check_bytes(const std::string& file, const std::string& name, const TestIma
 
 /// With another width and height in its header, whose check sum is right.
 std::string png_that_claims(std::string file, int side) {
-    const char bytes[] = {0, 0, static_cast<char>(side >> 8), static_cast<char>(side)};
+    const char bytes[] = {static_cast<char>(side >> 24), static_cast<char>(side >> 16),
+                          static_cast<char>(side >> 8), static_cast<char>(side)};
     file.replace(16, 8, std::string(bytes, 4) + std::string(bytes, 4));
     auto sum = crc32(0, reinterpret_cast<const Bytef*>(file.data()) + 12, 17);
     for (int k = 0; k < 4; k++)
@@ -189,6 +190,8 @@ TEST_CASE("texels: a file cut short is refused with one line that names it") {
 
 TEST_CASE("texels: sizes are refused before memory is taken") {
     const std::string small = png_of(six_colors());
+    CHECK_THAT(refusal(png_that_claims(small, 2000000000)),
+               Contains("2000000000 x 2000000000 texels (accepted"));
     CHECK_THAT(refusal(png_that_claims(small, 60000)),
                Contains("broken: 60000 x 60000 texels (accepted: sides of 1 to"));
     CHECK_THAT(refusal(png_that_claims(small, 15000)),
