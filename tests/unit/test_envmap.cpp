@@ -78,8 +78,10 @@ double shown(const Scene& scene, const char* channel = "R") {
     return find_channel(image, channel)->values[0];
 }
 
-/// Irradiance on a surface facing +z, by the midpoint rule over its hemisphere.
-double irradiance(const SkyImage& image, const glm::dmat3& to_world) {
+/// The integral over directions w above a surface facing +z of f(radiance, w.z), by the midpoint
+/// rule.
+template<class F>
+double over_hemisphere(const SkyImage& image, const glm::dmat3& to_world, const F& f) {
     constexpr int around = 2048, up = 1024;
     double sum = 0;
     for (int j = 0; j < up; j++) {
@@ -88,10 +90,14 @@ double irradiance(const SkyImage& image, const glm::dmat3& to_world) {
             double phi = 2 * std::numbers::pi * (i + 0.5) / around;
             glm::dvec3 w =
                 glm::transpose(to_world) * glm::dvec3(r * std::cos(phi), r * std::sin(phi), z);
-            sum += image.radiance(f64::v3(w.x, w.y, w.z)) * z;
+            sum += f(image.radiance(f64::v3(w.x, w.y, w.z)), z);
         }
     }
     return sum * 2 * std::numbers::pi / (double(around) * up);
+}
+
+double irradiance(const SkyImage& image, const glm::dmat3& to_world) {
+    return over_hemisphere(image, to_world, [](double l, double z) { return l * z; });
 }
 
 glm::dmat3 turned(const glm::dvec3& x, const glm::dvec3& about_y) {
@@ -198,6 +204,27 @@ TEST_CASE("envmap: a matte square gets its irradiance, however the sky is turned
             scene.integrator.emitter_samples = false;
             if (image.name != "a small sun") CHECK(shown(scene) == Approx(truth).epsilon(4e-2));
         }
+}
+
+TEST_CASE("envmap: a sample has less than a tenth of the variance of uniform directions") {
+    constexpr double reflectance = 0.8, brdf = reflectance / std::numbers::pi;
+    for (const SkyImage& image : sky_images()) {
+        if (image.name != "a small sun") continue;
+        const glm::dmat3 up_is_z(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
+        double mean = brdf * irradiance(image, up_is_z);
+        double square =
+            2 * std::numbers::pi * over_hemisphere(image, up_is_z, [](double l, double z) {
+                return brdf * brdf * l * l * z * z;
+            });
+        Scene scene = square_under(envmap_of(image, Rgb(1), up_is_z), reflectance);
+        scene.integrator.aovs = {{"variance", "variance", {}}};
+        scene.sampler.pattern = SamplePattern::independent;
+        Image shown = host_render(scene, Precision::single_precision).image;
+        CHECK(find_channel(shown, "R")->values[0] == Approx(mean).epsilon(1e-2));
+        double variance = find_channel(shown, "variance.R")->values[0];
+        CAPTURE(variance, square - mean * mean);
+        CHECK(10 * variance < square - mean * mean);
+    }
 }
 
 TEST_CASE("envmap: its share of a light tree is that of its power") {
