@@ -53,6 +53,8 @@ def arguments():
     parser.add_argument("--luxcore", metavar="PYTHON", default="python3", help="a Python that has pyluxcore")
     parser.add_argument("--cycles", metavar="PYTHON",
                         help="a Python that has Blender's module bpy, instead of the blender command")
+    parser.add_argument("--scene", metavar="NAME", action="append", default=[],
+                        help="time-to-error: only scenes with NAME in their name; may be given again")
     parser.add_argument("--threads", type=positive, default=1, help="of every renderer in time-to-error (default 1)")
     parser.add_argument("--reference-spp", type=positive, metavar="N",
                         help="samples a pixel that time-to-error's references have at least (default 8192, quick 1024)")
@@ -69,7 +71,7 @@ def context_of(options, scratch):
                    work=WORK, scratch=scratch, data=data if data.is_dir() else None, quick=options.quick,
                    processor_time=options.processor_time, threads=options.threads,
                    reference_spp=options.reference_spp or (1024 if options.quick else 8192), mitsuba=options.mitsuba,
-                   luxcore=options.luxcore, cycles=options.cycles)
+                   luxcore=options.luxcore, cycles=options.cycles, only=tuple(options.scene))
 
 
 def measure(context, names):

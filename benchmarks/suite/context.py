@@ -27,6 +27,7 @@ class Context:
     reference_spp: int     # samples a pixel that references have at least
     mitsuba: str           # a Python that has Mitsuba 3
     luxcore: str           # a Python that has pyluxcore
+    only: tuple            # parts of names of time-to-error's scenes; all where there are none
     cycles: str | None     # a Python that has Blender's module, to be taken instead of the blender command
 
     def scene(self, name):

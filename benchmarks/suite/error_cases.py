@@ -81,6 +81,8 @@ def cases(context):
             absent.append(f"{name}: skipped, PARHELION_DATA has no {file}")
     made += [Case(name, context.scene(f"closed_form/{folder}/scene.xml"), CLOSED_FORM_SIZE, (0.08, 0.04, 0.02), truth=truth,
                   relative_levels=True) for name, folder, truth in CLOSED_FORM]
+    if context.only:
+        return [c for c in made if any(word in c.name for word in context.only)], absent
     if context.quick:
         made = [made[0], made[3], next(c for c in made if c.truth)]
     return made, absent

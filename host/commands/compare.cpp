@@ -1,6 +1,7 @@
 // The options and the verdict of `parhelion compare`.
 #include "host/commands/compare.h"
 
+#include "host/commands/compare_pictures.h"
 #include "host/commands/compare_report.h"
 #include "host/error.h"
 #include "host/image/exr.h"
@@ -146,7 +147,8 @@ std::vector<Option> compare_options(CompareOptions& c) {
          &c.figures.pixels_per_degree,
          "FLIP's pixels per degree",
          {.domain = between(1, 10000)}}};
-    for (const std::vector<Option>& more : {limit_options(c), z_test_options(c)})
+    for (const std::vector<Option>& more :
+         {picture_options(c), limit_options(c), z_test_options(c)})
         options.insert(options.end(), more.begin(), more.end());
     return options;
 }
@@ -155,6 +157,7 @@ void check_options(const CompareOptions& options) { check_variance(options); }
 
 int run_compare(const CompareOptions& options, std::ostream& out) {
     check_options(options);
+    check_pictures(options);
     const Image image = read_exr(options.image), reference = read_exr(options.reference);
     const NamedImage a{options.image, image}, b{options.reference, reference};
     Image variance;
@@ -175,6 +178,7 @@ int run_compare(const CompareOptions& options, std::ostream& out) {
     const Comparison comparison = compare_images(a, b, figures, variance_input);
     if (options.flip && !comparison.flip)
         throw InputError(options.image + ": --flip needs R, G and B with finite values");
+    write_pictures(options, image, reference, comparison);
     const std::vector<Judgement> judgements = judge(options, comparison);
     const bool pass = all_pass(options, comparison, judgements);
     if (options.json)
@@ -194,6 +198,7 @@ Subcommand compare_subcommand() {
             "Examples:\n"
             "  parhelion compare image.exr reference.exr\n"
             "  parhelion compare image.exr reference.exr --relmse 1e-3 --bias 0.005 --json\n"
+            "  parhelion compare image.exr reference.exr --flip-image where.png\n"
             "  parhelion compare image.exr reference.exr --variance own\n"
             "  parhelion compare image.exr reference.exr --variance variance.exr --spp 64",
         .options = compare_options(*c),

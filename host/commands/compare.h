@@ -20,6 +20,9 @@ struct CompareOptions {
     /// Largest values accepted; absent: reported, not judged.
     std::optional<double> rmse, relmse, mae, bias, max, flip;
 
+    std::string difference_file, flip_file; ///< pictures to write; empty: none
+    bool force = false;                     ///< they may replace files
+
     std::string variance; ///< file of per-sample variances, or own_variance; empty: no z-test
     bool xyz_statistics = false;
     std::optional<double> samples; ///< per pixel of the image; absent: its own layer's
@@ -29,7 +32,7 @@ struct CompareOptions {
 /// Compares, prints the report and returns the exit code: ok where everything asked for is within
 /// its limit (or no limit was given), different where not, where one image alone has a channel, or
 /// where the figures show no difference and another channel does. Throws InputError (exit code
-/// bad_input) for files that cannot be compared; nothing has been printed then.
+/// bad_input) for files that cannot be compared or written; nothing has been printed then.
 int run_compare(const CompareOptions& options, std::ostream& out);
 
 /// The options of `compare`, which write to `options`.

@@ -61,13 +61,12 @@ std::optional<FlipFigures> flip_figures(const std::vector<ChannelPair>& pairs,
         take("B", &LinearRgb::b);
     }
     if (found != 3) return std::nullopt;
-    const std::vector<double> error =
-        flip_error(image, reference, width, height, pixels_per_degree);
+    std::vector<double> error = flip_error(image, reference, width, height, pixels_per_degree);
     double sum = 0.0;
     for (const double value : error)
         sum += value;
-    return FlipFigures{sum / static_cast<double>(error.size()),
-                       *std::max_element(error.begin(), error.end())};
+    const double largest = *std::max_element(error.begin(), error.end());
+    return FlipFigures{sum / static_cast<double>(error.size()), largest, std::move(error)};
 }
 
 bool is_alpha(const std::string& name) { return name == "A" || name.ends_with(".A"); }

@@ -34,6 +34,7 @@ struct ComparisonOptions {
 
 struct FlipFigures {
     double mean = 0.0, largest = 0.0; ///< 0 the same, 1 as different as can be
+    std::vector<double> of_pixels;    ///< row-major
 };
 
 struct Comparison {
