@@ -6,6 +6,7 @@ build          seconds to build a tree, beside Embree's commit, from 10 k to 10 
 render         paths and rays a second, the stages' shares, growth with pixels, depth, triangles, emitters
 compile        seconds to the first image, with empty caches and with full ones; the compiler's memory
 time-to-error  seconds to a given error, beside Mitsuba 3, Cycles and LuxCore
+gallery        pictures, references, differences, FLIP and times on one page
 all            all of these
 """
 import argparse
@@ -16,7 +17,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from suite import first_image, machine, native, page, render_rates, time_to_error  # noqa: E402
+from suite import first_image, gallery, machine, native, page, render_rates, time_to_error  # noqa: E402
 from suite.context import Context, Failure, say  # noqa: E402
 
 SUBCOMMANDS = {
@@ -25,6 +26,7 @@ SUBCOMMANDS = {
     "render": render_rates.rates,
     "time-to-error": time_to_error.time_to_error,
     "compile": first_image.first_image,
+    "gallery": gallery.gallery,
 }
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 WORK = ROOT / "build" / "bench"
@@ -54,7 +56,7 @@ def arguments():
     parser.add_argument("--cycles", metavar="PYTHON",
                         help="a Python that has Blender's module bpy, instead of the blender command")
     parser.add_argument("--scene", metavar="NAME", action="append", default=[],
-                        help="time-to-error: only scenes with NAME in their name; may be given again")
+                        help="time-to-error and gallery: only scenes with NAME in their name; may be given again")
     parser.add_argument("--threads", type=positive, default=1, help="of every renderer in time-to-error (default 1)")
     parser.add_argument("--reference-spp", type=positive, metavar="N",
                         help="samples a pixel that time-to-error's references have at least (default 8192, quick 1024)")

@@ -113,3 +113,16 @@ def _error_scene(scene, table, plots):
         "<details><summary>All points</summary>",
         table(["", "spp", "runs", "seconds", "whole process s", "RMSE", "relMSE", "FLIP", "1/(MSE s)"], rows),
         "</details>"])
+
+
+def gallery(result, table, plots):
+    size, head = result["size"], ["scene", "seconds", "RMSE", "relMSE", "FLIP", "mean", "seconds of the reference"]
+    parts = [f"<p>{size}x{size} pixels: {result['spp']} samples a pixel, a reference of {result['reference_spp']} with other "
+             "seeds, the absolute difference, and FLIP (white where it is 1).</p>",
+             table(head, [(r["name"], r["seconds"], r["rmse"], r["relmse"], r["flip"], r["mean"], r["reference_seconds"])
+                          for r in result["scenes"]])]
+    for row in result["scenes"]:
+        images = "".join(f'<figure><img src="{uri}" alt="{row["name"]}: {title}"><figcaption>{title}</figcaption></figure>'
+                         for title, uri in row["pictures"])
+        parts.append(f'<h3>{row["name"]}</h3><div class="plots">{images}</div>')
+    return "\n".join(parts)
