@@ -63,6 +63,91 @@ std::vector<float> many_values(int columns, int rows) {
     return values;
 }
 
+/// Every texel component, filter, wrap mode and kind of texture in turn.
+class TexturesInTurn {
+public:
+    Textured<Rgb> next() {
+        count_++;
+        if (count_ % 4 == 0) return example_checkerboard();
+        return textured(example_texels(components[count_ % 4 - 1]),
+                        static_cast<TextureFilter>(count_ % 2),
+                        static_cast<TextureWrap>(count_ % 3));
+    }
+
+private:
+    static constexpr TexelComponent components[] = {TexelComponent::byte, TexelComponent::half,
+                                                    TexelComponent::single};
+    std::size_t count_ = 0;
+};
+
+/// Every kind of material with textures wherever it can have one.
+void put_textures(Scene& scene) {
+    TexturesInTurn textures;
+    for (Material& m : scene.materials)
+        std::visit(
+            [&](auto& b) {
+                if constexpr (requires { b.reflectance; }) b.reflectance = textures.next();
+                if constexpr (requires { b.specular_reflectance; })
+                    b.specular_reflectance = textures.next();
+                if constexpr (requires { b.specular_transmittance; })
+                    b.specular_transmittance = textures.next();
+                if constexpr (requires { b.index; }) b.index = {textures.next(), textures.next()};
+                if constexpr (requires { b.roughness.alpha_u; })
+                    b.roughness.alpha_u = as_number(textures.next());
+            },
+            m.bsdf);
+}
+
+const MeshAttributeTexture attribute_of_corners{"vertex_color", 0.9};
+const MeshAttribute corner_colors{
+    "vertex_color", 3, {0.1f, 0.9f, 0.3f, 0.5f, 0.2f, 0.8f, 0.7f, 0.6f, 0.4f, 0.3f, 1, 0}};
+
+/// The wall's material is no other shape's: it can be an attribute of a mesh.
+Scene every_kind_textured() {
+    Scene scene = every_kind_scene();
+    put_textures(scene);
+    scene.materials.back().bsdf =
+        DiffuseBsdf{textured(Texture{"", glm::dmat3(1), attribute_of_corners})};
+    std::get<Mesh>(scene.shapes[1].geometry).attributes = {corner_colors};
+    return scene;
+}
+
+/// A row of squares, of each texture one: little else that takes long to compile.
+Scene textured_squares() {
+    constexpr int squares = 13;
+    TexturesInTurn textures;
+    Scene scene = square_in_sky(DiffuseBsdf{textures.next()}, 3);
+    const Shape whole = scene.shapes[0];
+    scene.shapes.clear(), scene.materials.clear();
+    for (int i = 0; i < squares; i++) {
+        Mesh m = std::get<Mesh>(whole.geometry);
+        for (auto& p : m.positions)
+            p.x = (2.f * static_cast<float>(i) + 1 + p.x) / squares - 1;
+        bool last = i == squares - 1;
+        if (last) m.attributes = {corner_colors};
+        scene.materials.push_back(
+            {"",
+             {},
+             DiffuseBsdf{last ? textured(Texture{"", glm::dmat3(1), attribute_of_corners})
+                              : textures.next()}});
+        scene.shapes.push_back(shape_of(m, i, no_material));
+    }
+    return scene;
+}
+
+void check_bits_of_host(Scene scene, std::span<const KernelWay> ways) {
+    scene.sampler.samples_per_pixel = 3;
+    scene.integrator.aovs = {{"al", "albedo", {}}};
+    Image host = host_render(scene, Precision::single_precision).image;
+    for (const KernelWay& way : ways) {
+        CAPTURE(way.name());
+        RenderOptions options;
+        options.lanes = way.lanes;
+        options.portable = way.portable;
+        CHECK(differing_values(render_quietly(scene, options).image, host).differing == 0);
+    }
+}
+
 } // namespace
 
 TEST_CASE("Textures: each pixel shows its square of a checkerboard", "[render]") {
@@ -131,43 +216,10 @@ TEST_CASE("Textures: a mirror's and a clear pane's colours are those of their te
     }
 }
 
+TEST_CASE("Textures: on every kind of material the kernels give the host's bits", "[render]") {
+    check_bits_of_host(every_kind_textured(), std::span(kernel_ways).first(1));
+}
+
 TEST_CASE("Textures: every way to compile the kernels gives the bits of the host's", "[render]") {
-    Scene scene = every_kind_scene();
-    const TexelComponent components[] = {TexelComponent::byte, TexelComponent::half,
-                                         TexelComponent::single};
-    std::size_t next = 0;
-    auto texture = [&] {
-        next++;
-        if (next % 4 == 0) return example_checkerboard();
-        return textured(example_texels(components[next % 4 - 1]),
-                        static_cast<TextureFilter>(next % 2), static_cast<TextureWrap>(next % 3));
-    };
-    for (Material& m : scene.materials)
-        std::visit(
-            [&](auto& b) {
-                if constexpr (requires { b.reflectance; }) b.reflectance = texture();
-                if constexpr (requires { b.specular_reflectance; })
-                    b.specular_reflectance = texture();
-                if constexpr (requires { b.specular_transmittance; })
-                    b.specular_transmittance = texture();
-                if constexpr (requires { b.index; }) b.index = {texture(), texture()};
-                if constexpr (requires { b.roughness.alpha_u; })
-                    b.roughness.alpha_u = as_number(texture());
-            },
-            m.bsdf);
-    // The wall's material is no other shape's: it can be an attribute of a mesh.
-    scene.materials.back().bsdf = DiffuseBsdf{
-        textured(Texture{"", glm::dmat3(1), MeshAttributeTexture{"vertex_color", 0.9}})};
-    std::get<Mesh>(scene.shapes[1].geometry).attributes = {
-        {"vertex_color", 3, {0.1f, 0.9f, 0.3f, 0.5f, 0.2f, 0.8f, 0.7f, 0.6f, 0.4f, 0.3f, 1, 0}}};
-    scene.sampler.samples_per_pixel = 3;
-    scene.integrator.aovs = {{"al", "albedo", {}}};
-    Image host = host_render(scene, Precision::single_precision).image;
-    for (const KernelWay& way : kernel_ways) {
-        CAPTURE(way.name());
-        RenderOptions options;
-        options.lanes = way.lanes;
-        options.portable = way.portable;
-        CHECK(differing_values(render_quietly(scene, options).image, host).differing == 0);
-    }
+    check_bits_of_host(textured_squares(), kernel_ways);
 }

@@ -19,7 +19,8 @@ namespace parhelion::test {
 /// 754.
 inline TexelSource texels_of(int width, int height, int channels, TexelComponent component,
                              const std::vector<float>& values, bool srgb = false) {
-    std::string name = "made by the test:"; // the same name stands for the same texels
+    // The same name stands for the same texels.
+    std::string name = "made by the test: " + std::to_string(static_cast<int>(component));
     for (float value : values)
         name += " " + std::to_string(value);
     TexelLayout layout{width, height, channels, component, srgb};
