@@ -4,6 +4,10 @@
 #include "host/flatten/gauss_legendre.h"
 #include "host/shared_maths.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 namespace parhelion {
 namespace {
 
@@ -60,6 +64,14 @@ void set_roughness(MaterialRecord& m, const parameter::EvenRoughness::Value& r) 
     set_roughness(m, parameter::Roughness::Value{r.distribution, r.alpha, r.alpha});
 }
 
+#define SET_TEXTURED_WORD(name)                                                                    \
+    void set_##name(MaterialRecord& m, const Textured<double>& value) {                            \
+        m.name = static_cast<float>(or_one(value));                                                \
+    }
+SET_TEXTURED_WORD(alpha_u)
+SET_TEXTURED_WORD(alpha_v)
+NUMBER_WORDS(SET_TEXTURED_WORD)
+
 void set_nothing(const MaterialRecord&, bool) {} // for the host alone
 
 /// Fresnel reflectance of light from everywhere, weighted by the cosine.
@@ -94,6 +106,9 @@ void derive(MaterialRecord& m, const RoughPlasticBsdf& b) {
     m.kb = m.eg = 1.f;
 }
 
+/// Opaque ones say so.
+void derive(MaterialRecord& m, const PrincipledBsdf& b) { m.distribution = is_opaque(b) ? 1 : 0; }
+
 // Textures of parameters, by the same word.
 
 using Rows = MaterialTexturesRecord;
@@ -115,7 +130,17 @@ void texture_roughness(Rows& t, const parameter::Roughness::Value& r, const Text
 }
 void texture_roughness(const Rows&, const parameter::EvenRoughness::Value&, const TextureRow&) {}
 void texture_interface(const Rows&, double, const TextureRow&) {}
-void texture_alpha_u(const Rows&, double, const TextureRow&) {}
+template<class Number> // of one that cannot be a texture none
+void texture_alpha_u(Rows& t, const Number& alpha, const TextureRow& row) {
+    if constexpr (requires { alpha.texture; }) t.alpha_u = row(alpha.texture);
+}
+void texture_alpha_v(Rows& t, const Textured<double>& alpha, const TextureRow& row) {
+    t.alpha_v = row(alpha.texture);
+}
+/// They have rows of their own, below.
+#define NO_TEXTURE_OF_WORD(name)                                                                   \
+    void texture_##name(const Rows&, const auto&, const TextureRow&) {}
+NUMBER_WORDS(NO_TEXTURE_OF_WORD)
 void texture_nothing(const Rows&, bool, const TextureRow&) {}
 
 #define TEXTURE_PARAMETER(Kind, name, missing, domain, stored) texture_##stored(t, b.name, row);
@@ -125,6 +150,31 @@ void texture_nothing(const Rows&, bool, const TextureRow&) {}
         PARAMETERS_##name(TEXTURE_PARAMETER)                                                       \
     }
 MATERIALS(TEXTURES_OF_BSDF)
+
+/// Where a word stands among those that a table of rows tells; -1: elsewhere.
+#define NUMBER_NAME(name) #name,
+constexpr int number_of(std::string_view word) {
+    constexpr std::array<std::string_view, NUMBER_ROWS> words{NUMBER_WORDS(NUMBER_NAME)};
+    auto found = std::find(words.begin(), words.end(), word);
+    return found == words.end() ? -1 : static_cast<int>(found - words.begin());
+}
+
+void add_row(std::vector<int>&, std::string_view, const auto&, const TextureRow&) {}
+void add_row(std::vector<int>& rows, std::string_view word, const Textured<double>& value,
+             const TextureRow& row) {
+    const int place = number_of(word);
+    if (place < 0 || !value.texture) return;
+    if (rows.empty()) rows.assign(NUMBER_ROWS, -1);
+    rows[static_cast<std::size_t>(place)] = row(value.texture);
+}
+
+#define ADD_NUMBER_ROW(Kind, name, missing, domain, stored) add_row(rows, #stored, b.name, row);
+#define NUMBER_ROWS_OF_BSDF(name, Name, ...)                                                       \
+    void add_rows([[maybe_unused]] std::vector<int>& rows, [[maybe_unused]] const Name##Bsdf& b,   \
+                  [[maybe_unused]] const TextureRow& row) {                                        \
+        PARAMETERS_##name(ADD_NUMBER_ROW)                                                          \
+    }
+MATERIALS(NUMBER_ROWS_OF_BSDF)
 
 #define SET_PARAMETER(Kind, name, missing, domain, stored) set_##stored(m, b.name);
 #define PACK_BSDF(name, Name, ...)                                                                 \
@@ -165,6 +215,12 @@ MaterialTexturesRecord material_textures(const Bsdf& bsdf, const TextureRow& row
     MaterialTexturesRecord t = no_textures;
     std::visit([&](const auto& b) { set_textures(t, b, row); }, bsdf);
     return t;
+}
+
+std::vector<int> number_rows(const Bsdf& bsdf, const TextureRow& row) {
+    std::vector<int> rows;
+    std::visit([&](const auto& b) { add_rows(rows, b, row); }, bsdf);
+    return rows;
 }
 
 } // namespace parhelion

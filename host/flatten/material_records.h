@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <type_traits>
+#include <vector>
 
 namespace parhelion {
 
@@ -26,6 +27,9 @@ inline constexpr MaterialTexturesRecord no_textures{MATERIAL_TEXTURES_FIELDS(NO_
 /// Rows of the textures that tell words of the record above.
 MaterialTexturesRecord material_textures(const Bsdf& bsdf, const TextureRow& row);
 
+/// Rows of the textures that tell Burley's numbers, of words tr to kb; empty where there are none.
+std::vector<int> number_rows(const Bsdf& bsdf, const TextureRow& row);
+
 #define IS_ROUGHNESS(Kind, ...)                                                                    \
     || std::is_same_v<parameter::Kind, parameter::Roughness> ||                                    \
         std::is_same_v<parameter::Kind, parameter::EvenRoughness>
@@ -41,8 +45,18 @@ inline constexpr int rough_materials = 0 MATERIALS(ROUGH_BIT);
 inline constexpr int interface_materials = 0 MATERIALS(INTERFACE_BIT);
 
 inline bool is_rough(const MaterialRecord& m) { return (rough_materials >> m.kind) & 1; }
+/// Whether its words are Burley's numbers (materials.h).
+inline bool is_principled(const MaterialRecord& m) {
+    return m.kind == material_principled || m.kind == material_principledthin;
+}
+/// Whether it answers for its upper side alone.
+inline bool is_opaque(const MaterialRecord& m) {
+    if (m.kind == material_principled) return (m.distribution & 1) != 0;
+    return (OPAQUE_MATERIALS >> m.kind) & 1;
+}
 /// Whether its lobes lie along a surface's texture coordinates.
 inline bool is_anisotropic(const MaterialRecord& m, const MaterialTexturesRecord& t) {
+    if (is_principled(m)) return m.alpha_v != 0.f; // their anisotropy
     return is_rough(m) && (m.alpha_u != m.alpha_v || t.alpha_u != t.alpha_v);
 }
 

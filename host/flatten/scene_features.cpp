@@ -7,6 +7,7 @@
 #include "host/flatten/filter_table.h"
 #include "host/flatten/lobe_lists.h"
 #include "host/flatten/material_records.h"
+#include "host/flatten/principled_features.h"
 #include "host/flatten/texture_features.h"
 #include "host/flatten/texture_records.h"
 
@@ -36,7 +37,6 @@ constexpr int no_limit = std::numeric_limits<int>::max(); // of a path's edges
 bool is_beckmann(const MaterialRecord& m) { return is_rough(m) && (m.distribution & 1); }
 bool is_ggx(const MaterialRecord& m) { return is_rough(m) && !(m.distribution & 1); }
 bool is_matte(const MaterialRecord& m) { return (MATTE_MATERIALS >> m.kind) & 1; }
-bool is_opaque(const MaterialRecord& m) { return (OPAQUE_MATERIALS >> m.kind) & 1; }
 bool lets_through(const MaterialRecord& m) { return (PASSING_MATERIALS >> m.kind) & 1; }
 bool is_nothing(const MaterialRecord& m) { return m.kind == material_null; }
 
@@ -280,6 +280,7 @@ int longest_path(const Integrator& integrator) {
 FeatureDecisions scene_features(const Scene& scene, const DeviceScene& records) {
     FeatureDecisions out;
     decide_materials(records, out);
+    decide_principled_features(records, out);
     decide_texture_features(records, out);
     decide_tangents(records, out);
     decide_surfaces(scene, records, out);

@@ -32,6 +32,7 @@ void decide_texture_features(const DeviceScene& records, FeatureDecisions& out) 
     decide(feature_textured_transmittance, has_row(&Rows::transmittance));
     decide(feature_textured_index, has_row(&Rows::eta, &Rows::k));
     decide(feature_textured_roughness, has_row(&Rows::alpha_u, &Rows::alpha_v));
+    decide(feature_textured_numbers, [](const Rows& t) { return IS_NUMBER_ROWS(t.transmittance); });
     decide_by_count(out, feature_textured_blends, records.lobes, "lobes",
                     [](const LobeRecord& lobe) { return lobe.factor0 != 0; });
     auto tilted_by = [](bool normals) {

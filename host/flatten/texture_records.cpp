@@ -111,6 +111,21 @@ void add_attribute(const Scene& scene, const MeshAttributeTexture& attribute, in
     bounds[row] = bounds_of_values(added.values);
 }
 
+/// The tables of rows of materials that have one, behind what stands in `texels`.
+void add_number_rows(const Scene& scene, const std::vector<std::vector<int>>& of_numbers,
+                     DeviceScene& out) {
+    for (std::size_t material = 0; material < of_numbers.size(); material++) {
+        const std::vector<int>& rows = of_numbers[material];
+        if (rows.empty()) continue;
+        std::size_t first = std::max(out.texels.size(), spare_words) - spare_words;
+        check_words(scene, first + rows.size());
+        out.texels.resize(first + rows.size() + spare_words);
+        std::copy(rows.begin(), rows.end(), &out.texels[first]);
+        std::fill_n(out.texels.end() - spare_words, spare_words, 0);
+        out.material_textures[material].transmittance = NUMBER_ROWS_CODE(static_cast<int>(first));
+    }
+}
+
 /// Of all textures, where some light has one.
 void add_means(const Scene& scene, const TextureRows& rows, const Images& images,
                DeviceScene& out) {
@@ -162,6 +177,7 @@ void add_textures(const Scene& scene, DeviceScene& out) {
         bytes |= image >= 0 && TEXTURE_COMPONENT(out.textures.back().form) == 0;
     }
     add_attributes(scene, rows, out, bounds);
+    add_number_rows(scene, named.of_numbers, out);
     check_values(rows, bounds);
     add_means(scene, rows, images, out);
     if (bytes) out.byte_values = make_byte_values();

@@ -46,6 +46,7 @@ NamedTextures name_textures(const Scene& scene, const SceneFrame& frame, bool li
         MaterialTexturesRecord t = material_textures(material.bsdf, row_of(rows));
         set_tilt(t, material.tilt, frame, rows);
         named.of_materials.push_back(t);
+        named.of_numbers.push_back(number_rows(material.bsdf, row_of(rows)));
     }
     for (const Blend& blend : scene.blends)
         named.of_blends.push_back(rows(blend.weight.texture));

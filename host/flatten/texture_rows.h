@@ -51,6 +51,7 @@ private:
 struct NamedTextures {
     TextureRows rows;
     std::vector<MaterialTexturesRecord> of_materials;
+    std::vector<std::vector<int>> of_numbers; ///< of each material, or empty (number_rows)
     std::vector<int> of_blends, of_shapes;
     std::vector<int> of_emitters; ///< what they shine through: rows behind those of surfaces
     int of_sky = -1;              ///< the last row

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "host/numerics/measure.h"
+#include "host/numerics/principled_cases.h"
 
 namespace parhelion::numerics {
 
@@ -52,6 +53,9 @@ typename P::Material make_material(const MaterialCase& c) {
         m.kg = Real(inner_reflectance(c.index)), m.kb = m.eg = Real(coat_share);
     m.alpha_u = Real(c.alpha_u), m.alpha_v = Real(c.alpha_v);
     m.distribution = c.distribution;
+    if (is_principled_kind(c.kind))
+        set_principled(
+            m, {c.kind == material_principledthin, c.lossless, c.index, c.alpha_u, c.alpha_v});
     return m;
 }
 
@@ -85,7 +89,10 @@ inline std::vector<MaterialCase> material_cases() {
     for (const MaterialCase& p : parameters)
         for (int kind = 0; kind < material_kind_count; kind++) {
             // A lobe so narrow above a matte base: the quadrature of densities does not see it.
-            if (kind == material_roughplastic && p.alpha_u < 0.005) continue;
+            bool above_base =
+                kind == material_roughplastic ||
+                ((kind == material_principled || kind == material_principledthin) && !p.lossless);
+            if (above_base && p.alpha_u < 0.005) continue;
             MaterialCase c = p;
             c.name = fmt::format("{}, {}", material_names[kind], p.name);
             c.kind = kind;
@@ -101,6 +108,7 @@ inline double most_sent_on(const MaterialCase& c) {
     // What a coat lets through is not what is left of what it reflects, but for its tables.
     if (c.kind == material_roughplastic)
         return 1 + coat_share * coat_share / (c.index * c.index * (1 - inner_reflectance(c.index)));
+    if (is_principled_kind(c.kind)) return most_sent_on(make_material<F64>(c));
     if (c.kind != material_roughdiffuse) return 1;
     double variance = c.alpha_u * c.alpha_u / 2;
     return std::max(1.0,

@@ -126,6 +126,13 @@ private:
         std::uint32_t kind = random_.bits() % material_kind_count;
         put_int(kind);
         values("cccccc");
+        if (kind == material_principled || kind == material_principledthin) {
+            double eta = one_in(8) ? 1 : random_.log_between(0.3, 3);
+            words_.push_back(static_cast<float>(eta));
+            values("ccccccc");
+            put_int(random_.bits() & 1);
+            return;
+        }
         if ((OPAQUE_MATERIALS >> kind) & 1) {
             values("ssssss");
         } else {

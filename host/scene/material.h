@@ -36,6 +36,16 @@ bool has_textured_lobe(const Kind& b) {
     return textured;
 }
 
+/// Whether light goes through it nowhere, and it answers for its upper side alone: by its kind, or
+/// by what it is told of itself.
+inline bool is_opaque(const PrincipledBsdf& b) {
+    return !b.spec_trans.texture && b.spec_trans.constant == 0.0;
+}
+inline bool is_opaque(const Bsdf& bsdf) {
+    if (const auto* b = std::get_if<PrincipledBsdf>(&bsdf)) return is_opaque(*b);
+    return (OPAQUE_MATERIALS >> bsdf.index()) & 1;
+}
+
 /// Whether the base below a rough coat is optically thinner than what is above it: as soon as its
 /// coat loses nothing, more light leaves it than comes in.
 template<class Kind>

@@ -19,6 +19,16 @@ struct Number {
     using Value = double;
 };
 
+/// A number, or a texture.
+struct TexturedNumber {
+    using Value = Textured<double>;
+};
+
+/// A relative index of refraction: `eta`, or `specular`, which stands for one.
+struct SpecularIndex {
+    using Value = double;
+};
+
 struct Flag {
     using Value = bool;
 };

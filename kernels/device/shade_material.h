@@ -4,6 +4,7 @@
 
 #include "device/coverage.h"
 #include "device/lobes.h"
+#include "device/material_textures.h"
 #include "device/notes.h"
 #include "device/seen_material.h"
 #include "device/shade_work.h"
@@ -90,8 +91,7 @@ FN Shading pass_or_cover(ShadeWork w, PathVertex v, Shading s) {
 /// -1 where a surface of material m is turned over to be seen from below: from wo.z < 0.
 FN Real side_to_viewer(Material m, Real z) {
     if (!HAS(back_materials)) return R(1.);
-    Mask opaque = ((((Int)1) << m.kind) & OPAQUE_MATERIALS) != 0;
-    return sel((z < R(0.)) & opaque, R(-1.), R(1.));
+    return sel((z < R(0.)) & material_is_opaque(m), R(-1.), R(1.));
 }
 
 /// Ready for light and for scattering.

@@ -251,50 +251,10 @@ FN Real texture_number(SceneTables scene, Int row, TexturePlace place, Mask want
     return number;
 }
 
-/// Less roughness is smooth to single precision, as for constants.
-#define LEAST_ROUGHNESS R(1e-9)
-
-FN Real textured_roughness(SceneTables scene, Int row, TexturePlace place, Mask hit,
-                           Real otherwise) {
-    Mask wanted = hit & (row >= 0);
-    Real alpha = maxR(texture_number(scene, row, place, wanted), LEAST_ROUGHNESS);
-    return sel(wanted, alpha, otherwise);
-}
-
 FN vec3 textured_color(SceneTables scene, Int row, TexturePlace place, Mask hit, vec3 otherwise) {
     Mask wanted = hit & (row >= 0);
     if (!someLane(wanted)) return otherwise;
     return sel3(wanted, texture_color(scene, row, place, wanted), otherwise);
-}
-
-/// The material of row `row` of the materials, its words as textures tell them at the lanes that
-/// have hit something.
-FN Material resolve_textures(SceneTables scene, Int row, TexturePlace place, Mask hit, Material m) {
-    MaterialTextures t = load_MaterialTextures(scene.material_textures, row);
-    if (HAS(textured_reflectance)) {
-        vec3 c = textured_color(scene, t.reflectance, place, hit, splat3(R(1.)));
-        m.r = m.r * c.x, m.g = m.g * c.y, m.b = m.b * c.z;
-        // A rough metal's average reflectance stands in place of a transmittance.
-        if (HAS(bsdf_roughconductor)) {
-            vec3 scale = sel3(m.kind == material_roughconductor, c, splat3(R(1.)));
-            m.tr = m.tr * scale.x, m.tg = m.tg * scale.y, m.tb = m.tb * scale.z;
-        }
-    }
-    if (HAS(textured_transmittance)) {
-        vec3 c = textured_color(scene, t.transmittance, place, hit, material_transmittance(m));
-        m.tr = c.x, m.tg = c.y, m.tb = c.z;
-    }
-    if (HAS(textured_index)) {
-        vec3 eta = textured_color(scene, t.eta, place, hit, material_eta(m));
-        vec3 k = textured_color(scene, t.k, place, hit, material_k(m));
-        m.er = eta.x, m.eg = eta.y, m.eb = eta.z;
-        m.kr = k.x, m.kg = k.y, m.kb = k.z;
-    }
-    if (HAS(textured_roughness)) {
-        m.alpha_u = textured_roughness(scene, t.alpha_u, place, hit, m.alpha_u);
-        m.alpha_v = textured_roughness(scene, t.alpha_v, place, hit, m.alpha_v);
-    }
-    return m;
 }
 
 #endif

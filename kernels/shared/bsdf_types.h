@@ -39,6 +39,14 @@ FN vec3 material_transmittance(Material m) { return v3(m.tr, m.tg, m.tb); }
 FN vec3 material_eta(Material m) { return v3(m.er, m.eg, m.eb); }
 FN vec3 material_k(Material m) { return v3(m.kr, m.kg, m.kb); }
 
+/// Whether it answers for its upper side alone: by its kind, or as its record says (materials.h).
+FN Mask material_is_opaque(Material m) {
+    Mask opaque = ((((Int)1) << m.kind) & OPAQUE_MATERIALS) != 0;
+    if (HAS(bsdf_principled))
+        opaque = opaque | ((m.kind == material_principled) & ((m.distribution & 1) != 0));
+    return opaque;
+}
+
 /// The interface of a dielectric seen from outside (`outside`) or from within; types.h says where
 /// its numbers live.
 FN Interface material_interface(Material m, Mask outside) {

@@ -40,6 +40,7 @@
     X(analytic_uvs)       /* something reads texture coordinates of spheres and disks */            \
     X(textures)           /* some parameter of a material is a texture; of these: */                \
     X(textured_reflectance) X(textured_transmittance) X(textured_index) X(textured_roughness)      \
+    X(textured_numbers)   /* Burley's */                                                           \
     X(textured_blends)    /* and what several materials at once share */                            \
     X(textured_lights)    /* and some surface shines as one tells */                                \
     X(projected_textures) /* some light without size shines through one */                          \
@@ -47,6 +48,7 @@
     X(back_materials)     /* some opaque surface has a material on its lower side too */            \
     X(blends)             /* some surface is several materials at once */                            \
     X(ggx) X(beckmann) X(anisotropy)                                                               \
+    X(clearcoat) X(spec_trans) X(sheen) /* some principled material has that lobe */               \
     X(normal_maps) X(bump_maps) /* some material's normals are tilted, by colours or by heights */ \
     X(tangents)           /* frames lie along texture coordinates: for one of the last three */    \
     X(energy_compensation) /* some rough lobe makes up for what it scatters more than once */      \

@@ -13,6 +13,7 @@
 //   matte        so, and what it spreads fades towards a smooth mesh's true horizon where soft shading normals are asked for
 //   transparent  it answers for both sides
 //   passing      so, and it can let a ray go straight on, as if there were no surface
+// (One that is transparent by the list is opaque where its record says so, see below.)
 #define MATERIALS(X)                                                                               \
     X(diffuse, Diffuse, matte)                                                                     \
     X(conductor, Conductor, opaque)                                                                \
@@ -23,7 +24,9 @@
     X(null, Null, passing)                                                                         \
     X(roughdiffuse, RoughDiffuse, matte)                                                           \
     X(plastic, Plastic, opaque)                                                                    \
-    X(roughplastic, RoughPlastic, opaque)
+    X(roughplastic, RoughPlastic, opaque)                                                          \
+    X(principled, Principled, transparent)                                                         \
+    X(principledthin, PrincipledThin, transparent)
 
 // Parameters: what it is (host/scene/parameter.h), name, value of one that is missing, where its numbers may lie
 // (a domain of host/scene/mitsuba/number_parameters.cpp, or one in brackets), what it becomes in a MaterialRecord: one of
@@ -75,6 +78,34 @@
     X(Color, specular_reflectance, 1.0, share, transmittance)                                      \
     X(Flag, nonlinear, false, , nothing)                                                           \
     X(Flag, energy_compensation, true, , nothing)
+
+// Burley's; what words of a record mean then stands below.
+#define PARAMETERS_principled(X)                                                                   \
+    X(Color, base_color, 0.5, share, reflectance)                                                  \
+    X(TexturedNumber, roughness, 0.5, share, alpha_u)                                              \
+    X(TexturedNumber, anisotropic, 0.0, share, alpha_v)                                            \
+    X(TexturedNumber, metallic, 0.0, share, tr)                                                    \
+    X(TexturedNumber, spec_trans, 0.0, share, tg)                                                  \
+    X(TexturedNumber, spec_tint, 0.0, share, tb)                                                   \
+    X(SpecularIndex, eta, 1.5, refractive_index, er)                                               \
+    X(TexturedNumber, sheen, 0.0, share, eg)                                                       \
+    X(TexturedNumber, sheen_tint, 0.0, share, eb)                                                  \
+    X(TexturedNumber, flatness, 0.0, share, kr)                                                    \
+    X(TexturedNumber, clearcoat, 0.0, share, kg)                                                   \
+    X(TexturedNumber, clearcoat_gloss, 0.0, share, kb)
+
+// `diff_trans`: 0 reflects, 2 lets through, all that is spread.
+#define PARAMETERS_principledthin(X)                                                               \
+    X(Color, base_color, 0.5, share, reflectance)                                                  \
+    X(TexturedNumber, roughness, 0.5, share, alpha_u)                                              \
+    X(TexturedNumber, anisotropic, 0.0, share, alpha_v)                                            \
+    X(TexturedNumber, spec_trans, 0.0, share, tg)                                                  \
+    X(TexturedNumber, spec_tint, 0.0, share, tb)                                                   \
+    X(TexturedNumber, eta, 1.5, refractive_index, er)                                              \
+    X(TexturedNumber, sheen, 0.0, share, eg)                                                       \
+    X(TexturedNumber, sheen_tint, 0.0, share, eb)                                                  \
+    X(TexturedNumber, flatness, 0.0, share, kr)                                                    \
+    X(TexturedNumber, diff_trans, 0.0, (between(0, 2)), kg)
 // clang-format on
 
 #define KIND_MATERIAL(name, ...) material_##name,
@@ -91,6 +122,26 @@ enum MaterialKind { MATERIALS(KIND_MATERIAL) material_kind_count };
 #define OPAQUE_MATERIALS (0 MATERIALS(OPAQUE_BIT))
 #define MATTE_MATERIALS (0 MATERIALS(MATTE_BIT))
 #define PASSING_MATERIALS (0 MATERIALS(PASSING_BIT))
+
+// Records (types.h) of principled materials keep Burley's numbers as scenes give them, roughness
+// and anisotropy in place of the alphas; and in bit 0 of the distribution whether nothing goes
+// through anywhere, so that they are opaque.
+#define METALLIC(m) ((m).tr)
+#define SPEC_TRANS(m) ((m).tg)
+#define SPEC_TINT(m) ((m).tb)
+#define SHEEN(m) ((m).eg)
+#define SHEEN_TINT(m) ((m).eb)
+#define FLATNESS(m) ((m).kr)
+#define CLEARCOAT(m) ((m).kg)
+#define DIFF_TRANS(m) ((m).kg)
+#define CLEARCOAT_GLOSS(m) ((m).kb)
+
+// Textures of the numbers from tr to kb (er: eta) have a table: in place of a transmittance's row
+// stands the code of the word of `texels` from which on each of them has a row, or -1.
+#define NUMBER_WORDS(X) X(tr) X(tg) X(tb) X(er) X(eg) X(eb) X(kr) X(kg) X(kb)
+#define NUMBER_ROWS 9
+#define NUMBER_ROWS_CODE(word) (-2 - (word))
+#define IS_NUMBER_ROWS(code) ((code) < -1)
 
 // What a side of a surface is made of is a number: of a material; or the code of a blend, on the
 // device of its first lobe; or -1, which absorbs.

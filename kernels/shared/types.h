@@ -75,7 +75,7 @@
 // from the outside and from the inside (the low parts decide on which side of the critical angle a direction lies).
 // Plastics keep just the outside and, in kg, the average reflectance of their coat from inside, less than 0 if it is nonlinear; and the
 // tint of what their coat mirrors in place of a transmittance. Coats of rough ones let kb through to the viewer, eg from the light.
-// Rough conductors keep their reflectance, averaged over the cosine, in place of a transmittance.
+// Rough conductors keep their reflectance, averaged over the cosine, in place of a transmittance. Of principled ones: materials.h.
 #define MATERIAL_FIELDS(X)                                                                         \
     X(int, kind)                                                                                   \
     X(float, r) X(float, g) X(float, b)       /* (specular) reflectance */                         \
@@ -93,7 +93,7 @@
 // What texture `row` tells, or what that leaves of 1.
 #define LOBE_FACTOR(row, rest) ((rest) ? -1 - (row) : 1 + (row))
 
-// Of each material the rows of the textures that tell words of its record, where 1 stands; -1: none.
+// Of each material the rows of the textures that tell words of its record, where 1 stands; -1: none; less: materials.h.
 #define MATERIAL_TEXTURES_FIELDS(X)                                                                \
     X(int, reflectance) X(int, transmittance)                                                      \
     X(int, eta) X(int, k) X(int, alpha_u) X(int, alpha_v) /* eta, k: of a conductor */           \

@@ -28,7 +28,7 @@ void change_rough(Scene& scene, Change change) {
     for (Material& m : scene.materials)
         std::visit(
             [&](auto& b) {
-                if constexpr (requires { b.roughness; }) change(b.roughness);
+                if constexpr (requires { b.roughness.distribution; }) change(b.roughness);
             },
             m.bsdf);
 }
@@ -70,6 +70,7 @@ inline void set_reflectances(Setup& s, const Textured<Rgb>& color) {
     change_materials(s, [&](auto& b, std::size_t) {
         if constexpr (requires { b.reflectance; }) b.reflectance = color;
         if constexpr (requires { b.specular_reflectance; }) b.specular_reflectance = color;
+        if constexpr (requires { b.base_color; }) b.base_color = color;
     });
 }
 /// Textures in turn.
@@ -100,6 +101,37 @@ inline void set_textured_roughness(Setup& s, bool on) {
         if constexpr (requires { r.alpha_u; })
             r.alpha_u = r.alpha_v = as_number(example_checkerboard());
     });
+    change_materials(s, [](auto& b, std::size_t) {
+        if constexpr (requires { b.base_color; }) b.roughness = as_number(example_checkerboard());
+    });
+}
+/// Of Burley's materials, which have so many.
+template<class Change>
+void change_principled(Setup& s, Change change) {
+    change_materials(s, [&](auto& b, std::size_t) {
+        if constexpr (requires { b.base_color; }) change(b);
+    });
+}
+inline void set_textured_numbers(Setup& s, bool on) {
+    if (!on) return;
+    change_principled(s, [](auto& b) {
+        b.sheen_tint = b.flatness = as_number(example_checkerboard());
+        if constexpr (requires { b.metallic; }) b.metallic = as_number(example_bitmap());
+        if constexpr (requires { b.eta.texture; }) b.eta = as_number(example_checkerboard());
+    });
+}
+inline void set_clearcoat(Setup& s, bool on) {
+    change_principled(s, [&](auto& b) {
+        if constexpr (requires { b.clearcoat; })
+            if (!on) b.clearcoat = 0.0;
+    });
+}
+/// Off: none lets light through.
+inline void set_spec_trans(Setup& s, bool on) {
+    if (!on) change_principled(s, [](auto& b) { b.spec_trans = 0.0; });
+}
+inline void set_sheen(Setup& s, bool on) {
+    if (!on) change_principled(s, [](auto& b) { b.sheen = 0.0; });
 }
 inline void set_texels_byte(Setup& s, bool on) {
     if (on) set_reflectances(s, textured(example_texels(TexelComponent::byte)));
@@ -175,7 +207,7 @@ inline void set_ggx(Setup& s, bool on) {
     for (Material& m : s.scene.materials)
         if (std::visit(
                 [](const auto& b) {
-                    return requires { b.roughness; };
+                    return requires { b.roughness.distribution; };
                 },
                 m.bsdf))
             m.bsdf = DiffuseBsdf{Rgb(0.4)};
@@ -188,6 +220,7 @@ inline void set_anisotropy(Setup& s, bool on) {
         change_rough(s.scene, [](auto& r) {
             if constexpr (requires { r.alpha_u; }) r.alpha_v = r.alpha_u;
         });
+    if (!on) change_principled(s, [](auto& b) { b.anisotropic = 0.0; });
 }
 inline void set_tilts(Setup& s, bool of_normals) {
     for (std::size_t i = 0; i < s.scene.materials.size(); i++)

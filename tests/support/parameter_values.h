@@ -51,6 +51,8 @@ private:
 
 inline void set_unlike(parameter::Color, Textured<Rgb>& v, Unlike& u) { v = u.color(); }
 inline void set_unlike(parameter::Number, double& v, Unlike& u) { v = u.share(); }
+inline void set_unlike(parameter::TexturedNumber, Textured<double>& v, Unlike& u) { v = u.share(); }
+inline void set_unlike(parameter::SpecularIndex, double& v, Unlike& u) { v = 1 + u.share(); }
 inline void set_unlike(parameter::Flag, bool& v, Unlike&) { v = !v; }
 inline void set_unlike(parameter::Index, double& v, Unlike& u) { v = 1 + u.share(); }
 inline void set_unlike(parameter::SeparateIndex, double& v, Unlike& u) { v = 1 + u.share(); }
@@ -88,6 +90,13 @@ inline std::string in_file(parameter::Color, std::string_view name, const Textur
 inline std::string in_file(parameter::Number, std::string_view name, double v) {
     return fmt::format("<float name='{}' value='{}'/>", name, v);
 }
+inline std::string in_file(parameter::TexturedNumber, std::string_view name,
+                           const Textured<double>& v) {
+    return in_file(parameter::Number{}, name, v.constant);
+}
+inline std::string in_file(parameter::SpecularIndex, std::string_view name, double eta) {
+    return in_file(parameter::Number{}, name, eta);
+}
 inline std::string in_file(parameter::Flag, std::string_view name, bool v) {
     return fmt::format("<boolean name='{}' value='{}'/>", name, v);
 }
@@ -119,6 +128,9 @@ inline std::string in_file(parameter::Roughness, std::string_view,
 // A value with one of its numbers changed, for each of them.
 
 inline std::vector<double> varied(double v) { return {v * 1.0625}; }
+inline std::vector<Textured<double>> varied(const Textured<double>& v) {
+    return {Textured<double>(v.constant * 1.0625)};
+}
 inline std::vector<bool> varied(bool v) { return {!v}; }
 inline std::vector<Rgb> varied(const Textured<Rgb>& color) {
     std::vector<Rgb> colors(3, color.constant);

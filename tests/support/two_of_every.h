@@ -60,6 +60,20 @@ inline Bsdf example_roughplastic(int which) {
     return b;
 }
 
+inline Bsdf example_principled(int which) {
+    PrincipledBsdf b;
+    b.base_color = Rgb(0.3, 0.6, 0.5), b.roughness = 0.6, b.metallic = 0.4, b.spec_tint = 0.5;
+    b.sheen = 0.7, b.sheen_tint = 0.4, b.clearcoat = 0.8, b.flatness = 0.3;
+    if (which) b.spec_trans = 0.7, b.eta = 1.4, b.anisotropic = 0.5, b.clearcoat_gloss = 0.3;
+    return b;
+}
+inline Bsdf example_principledthin(int which) {
+    PrincipledThinBsdf b;
+    b.base_color = Rgb(0.5, 0.6, 0.3), b.roughness = 0.5, b.diff_trans = 0.9, b.sheen = 0.6;
+    if (which) b.spec_trans = 0.6, b.spec_tint = 0.3, b.eta = 1.7, b.flatness = 0.5;
+    return b;
+}
+
 using Example = Bsdf (*)(int);
 #define EXAMPLE_MATERIAL(name, ...) example_##name,
 inline constexpr std::array example_materials{MATERIALS(EXAMPLE_MATERIAL)};

@@ -90,11 +90,11 @@ TEST_CASE("lenient: bsdfs become their nearest kin") {
         "value='.1,.2,.3'/></bsdf>");
     CHECK(phong.diffuse_reflectance.constant == Rgb(0.1, 0.2, 0.3));
     CHECK(phong.roughness.alpha == Approx(0.25)); // sqrt(2 / 32)
-    auto principled = bsdf_of<RoughPlasticBsdf>(
-        "<bsdf type='principled'><texture type='checkerboard' name='base_color'/><float "
+    auto disney = bsdf_of<RoughPlasticBsdf>(
+        "<bsdf type='disneybsdf'><texture type='checkerboard' name='base_color'/><float "
         "name='roughness' value='.5'/><float name='flatness' value='1'/></bsdf>");
-    CHECK(bool(principled.diffuse_reflectance.texture));
-    CHECK(principled.roughness.alpha == Approx(0.25));
+    CHECK(bool(disney.diffuse_reflectance.texture));
+    CHECK(disney.roughness.alpha == Approx(0.25));
     auto any =
         bsdf_of<DiffuseBsdf>("<bsdf type='velvet'><rgb name='albedo' value='.3,.2,.1'/></bsdf>");
     CHECK(any.reflectance.constant == Rgb(0.3, 0.2, 0.1));

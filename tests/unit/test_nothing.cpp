@@ -134,6 +134,7 @@ TEST_CASE("Texture coordinates are read for lobes that lie along them, and not f
                 [](const auto& b) {
                     if constexpr (requires { b.roughness.alpha_u; })
                         return !(b.roughness.alpha_u == b.roughness.alpha_v);
+                    if constexpr (requires { b.anisotropic; }) return b.anisotropic.constant > 0;
                     return false;
                 },
                 bsdf);

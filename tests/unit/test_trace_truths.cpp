@@ -81,7 +81,7 @@ private:
     const MaterialRecord& record(const TraceVertex& v) const { return flat_.materials[v.material]; }
     /// -1 where the surface is turned over.
     double side(const TraceVertex& v) const {
-        return v.wo[2] < 0 && ((OPAQUE_MATERIALS >> record(v).kind) & 1) ? -1 : 1;
+        return v.wo[2] < 0 && is_opaque(record(v)) ? -1 : 1;
     }
     f64::vec3 local(const TraceVertex& v, const glm::dvec3& w) const {
         const auto& f = v.notes.surface->frame;

@@ -29,7 +29,7 @@ template<Bsdf (*Read)(Properties&)>
 SurfaceMaterials read_material(Reading& r) {
     const Bsdf bsdf = Read(r.p);
     r.p.finish();
-    const bool one_sided = (OPAQUE_MATERIALS >> bsdf.index()) & 1;
+    const bool one_sided = is_opaque(bsdf);
     const int number = add_material(r.scene, {r.id, r.object.location, bsdf});
     return {number, one_sided ? no_material : number};
 }
@@ -161,7 +161,7 @@ int tilted(Scene& scene, int code, const Tilt& tilt, bool below) {
     Material& m = scene.materials[static_cast<std::size_t>(code)];
     if (std::holds_alternative<NullBsdf>(m.bsdf)) return code; // has no normal
     Tilt own = tilt;
-    if (below && ((OPAQUE_MATERIALS >> m.bsdf.index()) & 1)) own.scale = -own.scale;
+    if (below && is_opaque(m.bsdf)) own.scale = -own.scale;
     if (m.tilt && m.tilt.scale == own.scale) return code;
     if (m.tilt) {
         Material other = m;

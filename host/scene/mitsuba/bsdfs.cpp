@@ -74,6 +74,17 @@ double read(parameter::Number, Properties& p, std::string_view name, double miss
     return p.number(name, missing);
 }
 
+Textured<double> read(parameter::TexturedNumber, Properties& p, std::string_view name,
+                      const Textured<double>& missing) {
+    return p.textured_number(name, missing);
+}
+
+double read(parameter::SpecularIndex, Properties& p, std::string_view name, double missing) {
+    if (!p.has("specular")) return p.number(name, missing);
+    if (p.has(name)) p.refuse_value("specular", "given together with \"eta\"", "one or the other");
+    return 2.0 / (1.0 - std::sqrt(0.08 * p.number("specular", 0.5))) - 1.0;
+}
+
 bool read(parameter::Flag, Properties& p, std::string_view name, bool missing) {
     return p.boolean(name, missing);
 }
@@ -183,6 +194,32 @@ void note_together(Properties& p, const RoughPlasticBsdf& b) {
     if (b.energy_compensation && has_thin_base(b))
         p.note("int_ior", "there is no energy compensation where \"int_ior\" is less than "
                           "\"ext_ior\"");
+}
+
+/// They weigh what directions are drawn from, which we do by what each sends on.
+void read_sampling_rates(Properties& p, std::initializer_list<const char*> names) {
+    for (const char* name : names)
+        if (p.number(name, 1.0) != 1.0)
+            p.note(name,
+                   fmt::format("{} changes only the noise, and is not used", in_quotes(name)));
+}
+
+/// Facets between equal indices bend nothing: Mitsuba takes others.
+void note_together(Properties& p, PrincipledBsdf& b) {
+    read_sampling_rates(p, {"diffuse_reflectance_sampling_rate", "main_specular_sampling_rate",
+                            "clearcoat_sampling_rate"});
+    constexpr double nearest = 1.001;
+    if (is_opaque(b) || std::max(b.eta, 1.0 / b.eta) >= nearest) return;
+    const bool specular = p.has("specular");
+    b.eta = specular && b.eta == 1.0 ? 2.0 / (1.0 - std::sqrt(0.08 * 1e-3)) - 1.0 : nearest;
+    p.note(specular ? "specular" : "eta",
+           fmt::format("\"spec_trans\" needs two indices: \"eta\" is taken as {}", b.eta));
+}
+
+void note_together(Properties& p, PrincipledThinBsdf&) {
+    read_sampling_rates(
+        p, {"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
+            "specular_transmittance_sampling_rate", "diffuse_transmittance_sampling_rate"});
 }
 
 } // namespace

@@ -23,10 +23,8 @@ constexpr std::array<Kin, 5> kin_of_tags = {{{"integrator", "path"},
                                              {"rfilter", "gaussian"}}};
 
 /// Bsdfs of Mitsuba 0.x, of Mitsuba 3 and of its forks that have a nearer kin than `diffuse`.
-constexpr std::array<Kin, 7> kin_of_bsdfs = {{{"phong", "roughplastic"},
+constexpr std::array<Kin, 5> kin_of_bsdfs = {{{"phong", "roughplastic"},
                                               {"ward", "roughplastic"},
-                                              {"principled", "roughplastic"},
-                                              {"principledthin", "roughplastic"},
                                               {"disneybsdf", "roughplastic"},
                                               {"disneymetal", "roughconductor"},
                                               {"disneyglass", "roughdielectric"}}};

@@ -62,6 +62,8 @@ using MaterialNumbers = std::vector<MaterialNumber>;
 
 MaterialNumbers numbers(parameter::Color, std::string_view name) { return {{name, color}}; }
 MaterialNumbers numbers(parameter::Number, std::string_view name) { return {{name, real}}; }
+MaterialNumbers numbers(parameter::TexturedNumber, std::string_view name) { return {{name, real}}; }
+MaterialNumbers numbers(parameter::SpecularIndex, std::string_view name) { return {{name, real}}; }
 MaterialNumbers numbers(parameter::Flag, std::string_view) { return {}; }
 MaterialNumbers numbers(parameter::Index, std::string_view) {
     return {{"int_ior", real}, {"ext_ior", real}};
@@ -113,6 +115,13 @@ const NumberParameter other_parameters[] = {
     {"bsdf", "polarizer circular retarder", "theta", color, any_number().in("degrees")},
     {"bsdf", "retarder", "delta", real, any_number().in("degrees")},
     {"bsdf", "bumpmap", "scale", real, between(-1e20, 1e20)},
+    {"bsdf", "principled", "specular", real, share, "not with eta"},
+    {"bsdf", "principled principledthin", "diffuse_reflectance_sampling_rate", real, radiometric},
+    {"bsdf", "principled", "main_specular_sampling_rate", real, radiometric},
+    {"bsdf", "principled", "clearcoat_sampling_rate", real, radiometric},
+    {"bsdf", "principledthin", "specular_reflectance_sampling_rate", real, radiometric},
+    {"bsdf", "principledthin", "specular_transmittance_sampling_rate", real, radiometric},
+    {"bsdf", "principledthin", "diffuse_transmittance_sampling_rate", real, radiometric},
 
     {"emitter", "area constant", "radiance", color, radiometric, power},
     {"emitter", "point spot", "intensity", color, radiometric, power},
