@@ -48,12 +48,25 @@ std::string glass(Draws& draws) {
            number("ext_ior", draws.chance(0.7) ? 1 : draws.index());
 }
 
+/// Burley's numbers, each of them now and then.
+std::string principled(Draws& draws, bool thin) {
+    std::string text = tint("base_color", draws);
+    for (const char* name :
+         {"roughness", "anisotropic", "spec_trans", "spec_tint", "sheen", "sheen_tint", "flatness"})
+        if (draws.chance(0.5)) text += number(name, draws.share());
+    if (draws.chance(0.5)) text += number("eta", draws.index());
+    if (thin) return text + number("diff_trans", 2 * draws.share());
+    for (const char* name : {"metallic", "clearcoat", "clearcoat_gloss"})
+        if (draws.chance(0.5)) text += number(name, draws.share());
+    return text;
+}
+
 /// `nesting`: how many bsdfs may hold each other.
 std::string bsdf(Draws& draws, int nesting = 3) {
     auto plugin = [](const char* type, const std::string& inside) {
         return fmt::format("<bsdf type=\"{}\">{}</bsdf>", type, inside);
     };
-    switch (draws.below(nesting > 0 ? 13 : 11)) {
+    switch (draws.below(nesting > 0 ? 15 : 13)) {
     case 0:
     case 1:
         return plugin("diffuse", tint("reflectance", draws));
@@ -76,8 +89,12 @@ std::string bsdf(Draws& draws, int nesting = 3) {
         return plugin("roughplastic",
                       roughness(draws, true) + glass(draws) + tint("diffuse_reflectance", draws));
     case 11:
+        return plugin("principled", principled(draws, false));
+    case 12:
+        return plugin("principledthin", principled(draws, true));
+    case 13:
         return plugin("mask", number("opacity", draws.share()) + bsdf(draws, nesting - 1));
-    case 12: {
+    case 14: {
         std::string weight = number("weight", draws.share()), first = bsdf(draws, nesting - 1);
         return plugin("blendbsdf", weight + first + bsdf(draws, nesting - 1));
     }
