@@ -80,9 +80,7 @@ private:
 
     const MaterialRecord& record(const TraceVertex& v) const { return flat_.materials[v.material]; }
     /// -1 where the surface is turned over.
-    double side(const TraceVertex& v) const {
-        return v.wo[2] < 0 && is_opaque(record(v)) ? -1 : 1;
-    }
+    double side(const TraceVertex& v) const { return v.wo[2] < 0 && is_opaque(record(v)) ? -1 : 1; }
     f64::vec3 local(const TraceVertex& v, const glm::dvec3& w) const {
         const auto& f = v.notes.surface->frame;
         return f64::v3(glm::dot(w, vector(f[0])), glm::dot(w, vector(f[1])),
