@@ -1,13 +1,6 @@
 // Rough dielectric interface: microfacet reflection and refraction (Walter et al. 2007, "Microfacet
 // models for refraction through rough surfaces").
 
-/// oh dh/dwi, the Jacobian of the half vector of reflection or refraction, for cosines to h on this
-/// side (oh > 0) and of wi (beyond: ih < 0).
-FN Real half_vector_jacobian(Mask reflect, Real oh, Real ih, Real eta) {
-    Real refracted = oh * square(eta) * absR(ih) / square(sel(reflect, R(1.), oh + eta * ih));
-    return sel(reflect, R(.25), refracted);
-}
-
 FN BsdfEval bsdf_roughdielectric_eval(Material m, vec3 wo, vec3 wi) {
     Mask outside = wo.z > R(0.);
     Interface face = material_interface(m, outside);

@@ -65,3 +65,10 @@ FN NormalSample microfacet_sample(Material m, vec3 wo, vec2 u) {
     s.visible_d = microfacet_sample_visible_d(m, wo, s.h);
     return s;
 }
+
+/// oh dh/dwi, the Jacobian of the half vector of reflection or refraction (Walter et al. 2007, eqs.
+/// 14, 17), for cosines to h on this side (oh > 0) and of wi (beyond: ih < 0).
+FN Real half_vector_jacobian(Mask reflect, Real oh, Real ih, Real eta) {
+    Real refracted = oh * square(eta) * absR(ih) / square(sel(reflect, R(1.), oh + eta * ih));
+    return sel(reflect, R(.25), refracted);
+}
