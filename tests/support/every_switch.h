@@ -146,8 +146,8 @@ inline void set_back_materials(Setup& s, bool on) {
     for (Shape& shape : s.scene.shapes) {
         int front = shape.material_front;
         bool blend = IS_BLEND(front) && front == shape.material_back; // of opaque ones
-        auto kind = static_cast<std::size_t>(front) / 2;
-        bool opaque = front >= 0 && (front == black_material || is_opaque(kind));
+        bool opaque = front >= 0 && front <= black_material &&
+                      parhelion::is_opaque(s.scene.materials[static_cast<std::size_t>(front)].bsdf);
         if (!on && (blend || opaque)) shape.material_back = no_material;
     }
 }
