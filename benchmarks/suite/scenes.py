@@ -3,7 +3,6 @@ import array
 import hashlib
 import math
 import struct
-import zlib
 
 HEAD = """<scene version="3.0.0">
     <default name="width" value="512"/>
@@ -83,7 +82,7 @@ def _room_of(folder, name, material, wall):
 
 def textured_room(folder, side):
     """The diffuse room, its reflectance from an image of that many texels a side, of the same mean."""
-    image = folder / f"noise-{side}.png"
+    image = folder / f"noise-{side}.tga"
     if not image.exists():
         _write_noise(image, side)
     material = ('<bsdf type="twosided"><bsdf type="diffuse"><texture name="reflectance" type="bitmap"><string name="filename" '
@@ -92,18 +91,15 @@ def textured_room(folder, side):
 
 
 def _write_noise(path, side):
-    """An 8-bit RGB PNG of pseudo-random texels about the diffuse room's reflectance."""
+    """An 8-bit RGB TGA of pseudo-random texels about the diffuse room's reflectance."""
     random = array.array("B", hashlib.shake_128(b"texels").digest(side * 3))
-    mean = (191, 153, 115) * side
-    head = struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)
+    blue_green_red = (115, 153, 191) * side
+    head = struct.pack("<3B2HB4H2B", 0, 0, 2, 0, 0, 0, 0, 0, side, side, 24, 0)
     rows = []
     for y in range(side):
-        turned = random[3 * (37 * y % side):] + random[:3 * (37 * y % side)]
-        rows.append(b"\0" + bytes(m + r % 64 - 32 for m, r in zip(mean, turned)))
-    body = zlib.compress(b"".join(rows), 1)
-    chunks = ((b"IHDR", head), (b"IDAT", body), (b"IEND", b""))
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks))
+        first = 3 * (37 * y % side)
+        rows.append(bytes(m + r % 64 - 32 for m, r in zip(blue_green_red, random[first:] + random[:first])))
+    path.write_bytes(head + b"".join(rows))
 
 
 def many_materials(folder):

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace parhelion {
 
@@ -78,10 +79,12 @@ void check_pictures(const CompareOptions& options) {
 
 void write_pictures(const CompareOptions& options, const Image& image, const Image& reference,
                     const Comparison& comparison) {
-    for (const PictureKind& kind : picture_kinds) {
-        const std::string& file = options.*kind.file;
-        if (file.empty()) continue;
-        const Image drawn = kind.draw(image, reference, comparison);
+    std::vector<std::pair<std::string, Image>> pictures; // all, before one is written
+    pictures.reserve(picture_kinds.size());
+    for (const PictureKind& kind : picture_kinds)
+        if (const std::string& file = options.*kind.file; !file.empty())
+            pictures.emplace_back(file, kind.draw(image, reference, comparison));
+    for (const auto& [file, drawn] : pictures) {
         // Values that are not finite are the same in both images, and the report counts them.
         const Existing existing = existing_files(options.force);
         if (image_format(file) == ImageFormat::png)

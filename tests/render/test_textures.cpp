@@ -94,6 +94,11 @@ void put_textures(Scene& scene) {
                 if constexpr (requires { b.index; }) b.index = {textures.next(), textures.next()};
                 if constexpr (requires { b.roughness.alpha_u; })
                     b.roughness.alpha_u = as_number(textures.next());
+                if constexpr (requires { b.base_color; }) {
+                    b.base_color = textures.next();
+                    b.roughness = as_number(textures.next());
+                    b.flatness = as_number(textures.next());
+                }
             },
             m.bsdf);
 }

@@ -4,6 +4,7 @@
 #include "host/image/exr.h"
 #include "test_image_tools.h"
 
+#include <filesystem>
 #include <sstream>
 
 using namespace parhelion;
@@ -73,8 +74,9 @@ TEST_CASE("compare: FLIP of what has no colours cannot be drawn") {
     static_cast<void>(write_exr(pair.options.image, grey));
     static_cast<void>(write_exr(pair.options.reference, grey));
     pair.options.flip_file = pair.folder.file("flip.png");
-    CHECK_THROWS_WITH(pair.run(), Contains("--flip-image"));
-    pair.options.flip_file.clear();
     pair.options.difference_file = pair.folder.file("difference.png");
+    CHECK_THROWS_WITH(pair.run(), Contains("--flip-image"));
+    CHECK_FALSE(std::filesystem::exists(pair.options.difference_file));
+    pair.options.flip_file.clear();
     CHECK_NOTHROW(pair.run());
 }
