@@ -90,8 +90,7 @@ inline std::vector<MaterialCase> material_cases() {
         for (int kind = 0; kind < material_kind_count; kind++) {
             // A lobe so narrow above a matte base: the quadrature of densities does not see it.
             bool above_base =
-                kind == material_roughplastic ||
-                ((kind == material_principled || kind == material_principledthin) && !p.lossless);
+                kind == material_roughplastic || (is_principled_kind(kind) && !p.lossless);
             if (above_base && p.alpha_u < 0.005) continue;
             MaterialCase c = p;
             c.name = fmt::format("{}, {}", material_names[kind], p.name);

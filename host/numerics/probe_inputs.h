@@ -7,6 +7,7 @@
 #pragma once
 
 #include "host/numerics/measure.h"
+#include "host/numerics/principled_cases.h"
 
 #include <bit>
 #include <functional>
@@ -126,7 +127,7 @@ private:
         std::uint32_t kind = random_.bits() % material_kind_count;
         put_int(kind);
         values("cccccc");
-        if (kind == material_principled || kind == material_principledthin) {
+        if (is_principled_kind(static_cast<int>(kind))) {
             double eta = one_in(8) ? 1 : random_.log_between(0.3, 3);
             words_.push_back(static_cast<float>(eta));
             values("ccccccc");
