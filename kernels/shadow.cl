@@ -7,9 +7,9 @@
 #include "device/traverse_packet.h"
 #include "device/traverse_stream.h"
 
-/// The lanes as far as the closest of what they hit; -1: nothing.
-FN Path path_to_hit(SceneTables scene, RenderParams params, Path p, Mask lanes) {
-    PacketHit hit = traverse_packet(scene.bvh_nodes, scene.bvh_leaves, params.root,
+/// The lanes as far as the closest that they hit of what lets light through; -1: nothing.
+FN Path path_to_clear(SceneTables scene, RenderParams params, Path p, Mask lanes) {
+    PacketHit hit = traverse_packet(scene.bvh_nodes, scene.bvh_leaves, params.clear_root,
                                     packet_ray(p.origin, p.direction, params.tree_sizes),
                                     params.tree_sizes, p.t, p.excluded, lanes, 0);
     p.t = hit.t, p.b1 = hit.b1, p.b2 = hit.b2;
@@ -24,7 +24,7 @@ FN Mask shadow_packet(global const BvhNode* nodes, global const BvhLine* leaves,
                       RenderParams params, Mask active) {
     TreeSizes sizes = blocking_sizes(params);
     PacketRay rays = packet_ray(ray_at_origin(place), ray_at_direction(place), sizes);
-    PacketHit hit = traverse_packet(nodes, leaves, params.root, rays, sizes, ray_at_t(place),
+    PacketHit hit = traverse_packet(nodes, leaves, params.blocking_root, rays, sizes, ray_at_t(place),
                                     ray_at_excluded(place), active, 1);
     return hit.primitive != NO_PRIMITIVE;
 }
@@ -37,7 +37,7 @@ kernel void shadow(KERNEL_PARAMETERS) {
     int base = segment * params.segment_stride;
     int end = base + AT(global int, counts, 2 * segment + 1);
     if (HAS(ray_streams))
-        traverse_stream(bvh_nodes, bvh_leaves, params.root, shadow_state, params.state_stride, base,
+        traverse_stream(bvh_nodes, bvh_leaves, params.blocking_root, shadow_state, params.state_stride, base,
                         end, 1, blocking_sizes(params));
     for (int at = base; at < end; at += LANES) {
         Mask active = active_lanes(end - at);
@@ -46,11 +46,11 @@ kernel void shadow(KERNEL_PARAMETERS) {
                            ? load_state_Int(place, shadow_blocked) != 0
                            : shadow_packet(bvh_nodes, bvh_leaves, place, params, active);
         vec3 light = shadow_at_contribution(place);
-        if (HAS(clear_shadows) && someLane(active & blocked)) {
+        if (HAS(clear_shadows) && someLane(active & !blocked)) {
             SceneTables scene = {SCENE_BUFFERS(SCENE_VALUE)};
-            Real share = clear_way(scene, params, place, active & blocked, depth);
+            Real share = clear_way(scene, params, place, active & !blocked, depth);
             light = scale3(light, share);
-            blocked = blocked & !(share > R(0.));
+            blocked = blocked | !(share > R(0.));
             store_arriving(place, light, blocked);
         }
         add_result3(results_of(results, params), result_r, shadow_at_slot(place), light,

@@ -47,7 +47,7 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     params.film_width = params.film_height = side;
     params.window_width = params.window_height = side;
     params.blocks_x = sizes_.film.window.blocks_x;
-    params.root = params.camera_root = root;
+    params.root = params.camera_root = params.blocking_root = root;
     params.tree_sizes = {bvh_extent(bvh, root), bvh.side};
     bind_arguments(intersect_, scene_, work_, film_, params);
     bind_arguments(shadow_, scene_, work_, film_, params);

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <type_traits>
 
 namespace parhelion {
@@ -33,6 +34,28 @@ std::vector<int> seen_by_camera(const Scene& scene, const DeviceScene& device) {
             subset.push_back(first + static_cast<int>(k));
     }
     return subset;
+}
+
+/// Whether some of what a side is made of is no surface at all.
+bool is_clear(const DeviceScene& device, int code) {
+    const std::vector<LobeRecord> lobes = lobes_of(device, code);
+    return std::any_of(lobes.begin(), lobes.end(), [&](const LobeRecord& lobe) {
+        return device.materials[static_cast<std::size_t>(lobe.material)].kind == material_null;
+    });
+}
+
+/// Shadow rays that nothing opaque stops go through what is clear, one surface after the other.
+void add_shadow_trees(DeviceScene& device) {
+    std::map<int, bool> clear_codes;
+    std::vector<int> blocking, clear;
+    for (std::size_t i = 0; i < device.geometry.primitives.size(); i++) {
+        int code = device.geometry.primitives[i].material;
+        const auto [found, added] = clear_codes.try_emplace(code);
+        if (added) found->second = is_clear(device, code);
+        (found->second ? clear : blocking).push_back(static_cast<int>(i));
+    }
+    device.blocking_root = bvh_append(device.bvh, device.geometry, blocking);
+    device.clear_root = bvh_append(device.bvh, device.geometry, clear);
 }
 
 } // namespace
@@ -70,7 +93,8 @@ static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
 DeviceScene make_device_scene(const Scene& scene, LightChoice choice) {
     DeviceScene out = flatten_scene(scene, choice);
     out.root = bvh_append(out.bvh, out.geometry, &out.bvh_statistics);
-    out.camera_root = out.root;
+    out.camera_root = out.blocking_root = out.clear_root = out.root;
+    if (out.features.has(feature_clear_shadows)) add_shadow_trees(out);
     if (scene.integrator.hide_emitters) {
         std::vector<int> visible = seen_by_camera(scene, out);
         if (visible.size() < out.geometry.primitives.size())

@@ -56,6 +56,9 @@ struct DeviceScene {
     BvhStatistics bvh_statistics;
     int camera_root = 0; ///< differs from root where emitters are hidden from the camera
     int root = 0;
+    int blocking_root = 0; ///< of what shadow rays cannot go through; differs from root where there
+                           ///< is something else
+    int clear_root = 0;    ///< of that
     int sky_light = -1;             ///< row of the light table
     FeatureDecisions features;      ///< what the kernels must have, and why
     std::vector<std::string> notes; ///< what single precision makes of the scene that the user

@@ -164,7 +164,7 @@ RenderParams Traversal::params(const RayLayout& layout) const {
     params.state_stride = params.result_stride = static_cast<int>(layout.stride);
     params.segment_size = static_cast<int>(layout.size);
     params.segment_stride = static_cast<int>(layout.pitch);
-    params.root = params.camera_root = scene_.root;
+    params.root = params.camera_root = params.blocking_root = scene_.root;
     params.tree_sizes = {extent_, scene_.bvh.side};
     return params;
 }

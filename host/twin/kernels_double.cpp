@@ -28,9 +28,9 @@ struct Kernels : WorkItem {
 #undef PARHELION_REAL
 #undef PARHELION_REAL_IS_DOUBLE
 
-    Path path_to_hit(const SceneTables& scene, const RenderParams& params, Path p, bool) {
+    Path path_to_clear(const SceneTables& scene, const RenderParams& params, Path p, bool) {
         PlainHit hit =
-            plain_walk(scene, params.root, packet_ray(p.origin, p.direction, params.tree_sizes),
+            plain_walk(scene, params.clear_root, packet_ray(p.origin, p.direction, params.tree_sizes),
                        p.t, p.excluded, false);
         p.t = hit.t, p.b1 = hit.b1, p.b2 = hit.b2, p.primitive = hit.primitive;
         return p;
@@ -60,14 +60,13 @@ struct Kernels : WorkItem {
         for (int at = base; at < end; at++) {
             StatePlace place = state_place(shadow_state, params.state_stride, at);
             PlainHit hit =
-                plain_walk({SCENE_BUFFERS(SCENE_VALUE)}, params.root,
+                plain_walk({SCENE_BUFFERS(SCENE_VALUE)}, params.blocking_root,
                            packet_ray(ray_at_origin(place), ray_at_direction(place), sizes),
                            ray_at_t(place), ray_at_excluded(place), true);
             bool blocked = hit.primitive >= 0;
             vec3 light = shadow_at_contribution(place);
-            if (blocked && FEATURES.has(feature_clear_shadows)) {
-                double share =
-                    clear_way({SCENE_BUFFERS(SCENE_VALUE)}, params, place, blocked, depth);
+            if (!blocked && FEATURES.has(feature_clear_shadows)) {
+                double share = clear_way({SCENE_BUFFERS(SCENE_VALUE)}, params, place, true, depth);
                 light = scale3(light, share);
                 blocked = !(share > 0);
             }

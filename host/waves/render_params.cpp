@@ -43,6 +43,8 @@ RenderParams render_params(const Scene& scene, const DeviceScene& device, const 
     p.aov_channels = sizes.film.aov_channels;
     p.camera_root = device.camera_root;
     p.root = device.root;
+    p.blocking_root = device.blocking_root;
+    p.clear_root = device.clear_root;
     p.tree_sizes = {bvh_extent(device.bvh, device.root), device.bvh.side};
     std::fill(std::begin(p.aov_offset), std::end(p.aov_offset), -1);
     for (const AovLayer& layer : aovs.layers)

@@ -1,7 +1,8 @@
 // Shadow rays through surfaces that are not there, or not all of them: masks let light through.
 //
-// What lies in a ray's way is met one after the other, as by a path that goes straight on there.
-// Who includes this knows how rays meet things: path_to_hit.
+// What is opaque has been looked for before, in a tree of its own. The others, where they lie in a
+// ray's way, are met one after the other, as by a path that goes straight on there. Who includes
+// this knows how rays meet them: path_to_clear.
 #ifndef PARHELION_SHADOW_CLEAR_H
 #define PARHELION_SHADOW_CLEAR_H
 
@@ -37,10 +38,9 @@ FN Path clear_ray_behind(Path p, PathVertex v, vec3 end, Mask distant) {
     return p;
 }
 
-/// What arrives of the light of the blocked shadow rays that begin at `depth`. They meet no more
+/// What arrives of the light of the open shadow rays that begin at `depth`. They meet no more
 /// surfaces than paths do.
-FN Real clear_way(SceneTables scene, RenderParams params, StatePlace place, Mask blocked,
-                  int depth) {
+FN Real clear_way(SceneTables scene, RenderParams params, StatePlace place, Mask open, int depth) {
     Path p;
     p.origin = ray_at_origin(place);
     p.direction = ray_at_direction(place);
@@ -49,8 +49,8 @@ FN Real clear_way(SceneTables scene, RenderParams params, StatePlace place, Mask
     Mask distant = p.t == (Real)INFINITY;
     vec3 end = add3(p.origin, p.direction);
     Real share = R(1.);
-    for (Mask going = blocked; someLane(going); depth++) {
-        p = path_to_hit(scene, params, p, going);
+    for (Mask going = open; someLane(going); depth++) {
+        p = path_to_clear(scene, params, p, going);
         going = going & (p.primitive >= 0);
         PathVertex v = vertex_of(p, going, scene);
         Real clear = clear_share(scene, v);

@@ -278,14 +278,15 @@ LAYOUT(CameraRecord, 120);
     X(int, segment_size)                      /* path slots owned by one work-item */               \
     X(int, segment_stride)                    /* their entries in the path state, with padding */   \
     X(int, aov_channels)                                                                           \
-    X(int, camera_root) X(int, root)          /* BVH roots for camera rays and for all others */
+    /* BVH roots: for camera rays and for paths behind them; for shadow rays of what lets nothing through, and of the rest */ \
+    X(int, camera_root) X(int, root) X(int, blocking_root) X(int, clear_root)
 typedef struct {
     CameraRecord camera;
     RENDER_FIELDS(FIELD_DECLARE)
     TreeSizes tree_sizes;      // of all trees
     int aov_offset[AOV_LIMIT]; // AOV_CHANNEL of each kind's first, -1: not asked for
 } RenderParams;
-LAYOUT(RenderParams, 120 + 30 * 4 + AOV_LIMIT * 4);
+LAYOUT(RenderParams, 120 + 32 * 4 + AOV_LIMIT * 4);
 
 // A wave: all samples [first_sample, first_sample + sample_count) of blocks [first_block, first_block + block_count).
 // Which of them a slot of the pool is, device/wave.h says.

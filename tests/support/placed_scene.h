@@ -47,6 +47,7 @@ inline bool same_on_device(const Scene& a, const Scene& b, std::string& differs)
     check(same_bytes(x.bvh.nodes, y.bvh.nodes), "nodes");
     check(same_bytes(x.bvh.leaves, y.bvh.leaves), "leaves");
     check(x.root == y.root && x.camera_root == y.camera_root, "roots");
+    check(x.blocking_root == y.blocking_root && x.clear_root == y.clear_root, "shadow rays' roots");
     check(x.sky_light == y.sky_light, "sky");
     check(x.features == y.features, "features");
     return differs.empty();

@@ -160,6 +160,20 @@ TEST_CASE("Masks let the light of a point through by what they are not there", "
         }
 }
 
+TEST_CASE("What is opaque stands in the light beside masks, before and behind them", "[blends]") {
+    double through = seen(behind_masks(2, 0.3));
+    REQUIRE(through > 0.01);
+    for (Precision precision : {Precision::single_precision, Precision::double_precision})
+        for (double x : {0.8, 1.25, 1.8}) // the masks are at 1 and 1.5
+            for (double y : {-2.0, 20.0}) {
+                Scene scene = behind_masks(2, 0.3);
+                scene.shapes.push_back(shape_of(quad({x, y, 0.2}, {0, 4, 0}, {0, 0, 4}), 2, 2));
+                double found = mean(host_render(scene, precision).image, "R");
+                CAPTURE(x, y);
+                CHECK(found == Approx(y < 0 ? 0 : through).epsilon(1e-5));
+            }
+}
+
 TEST_CASE("Masks let light through that is sampled and met by chance, once", "[blends]") {
     // Within a ball that reflects nothing and is there by half, the sheet sees half of the sky and
     // half of a lamp, whichever way either of them is found.
