@@ -33,6 +33,18 @@ std::string looked_in(const std::vector<fs::path>& candidates) {
     return list + ")";
 }
 
+/// Of the other kind than was looked for.
+std::string what_is_there(const std::vector<fs::path>& candidates) {
+    for (const fs::path& candidate : candidates) {
+        std::error_code error;
+        const fs::file_type type = fs::status(candidate, error).type();
+        if (type == fs::file_type::directory) return ": it is a folder";
+        if (type == fs::file_type::regular) return ": it is a file";
+        if (fs::exists(fs::file_status(type))) return ": it is neither a file nor a folder";
+    }
+    return "";
+}
+
 } // namespace
 
 FileFinder::FileFinder(const fs::path& scene_file, bool allow_outside)
@@ -67,7 +79,8 @@ fs::path FileFinder::find(const std::string& name, const SourceLocation& place,
                        " lies outside the scene's folder (use --allow-outside to permit it)");
         return candidate;
     }
-    refuse(place, std::string(kind) + " " + in_quotes(name) + " not found" + looked_in(candidates));
+    refuse(place, std::string(kind) + " " + in_quotes(name) + " not found" +
+                      what_is_there(candidates) + looked_in(candidates));
 }
 
 fs::path FileFinder::file(const std::string& name, const SourceLocation& place) const {

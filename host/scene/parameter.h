@@ -44,7 +44,7 @@ struct SeparateIndex {
 };
 
 /// Index of a conductor relative to the exterior medium: `eta` and `k`, or the name of a
-/// `material`.
+/// `material`; both over `ext_eta`, of which Mitsuba 0.x files tell.
 struct ComplexIndex {
     struct Value {
         Textured<Rgb> eta{0.0},

@@ -211,6 +211,19 @@ TEST_CASE("scene foreign: of several sensors the first is used, or the one that 
                       Contains("--sensor 2") && Contains("accepted: 0 to 1"));
 }
 
+TEST_CASE("scene foreign: what is wrong with a sensor that is not chosen is noted") {
+    const std::string text = "<sensor type=\"perspective\"/>\n<sensor type=\"fisheye\"/>\n"
+                             "<sensor type=\"perspective\"><float name=\"fov\" value=\"0\"/>"
+                             "</sensor>";
+    const Scene scene = load_text(text);
+    CHECK(notes(scene, "\"fisheye\""));
+    CHECK(notes(scene, "\"fov\" is 0"));
+    CHECK(notes(scene, "it is not the chosen sensor"));
+    LoadOptions options;
+    options.sensor = 2;
+    CHECK_THROWS_WITH(load_text(text, options), Contains("\"fov\" is 0"));
+}
+
 // As Mitsuba 2 writes it down in its scene.cpp: 45 degrees, along +z, far enough for the largest
 // extent of the box around all shapes to fill the view.
 TEST_CASE("scene foreign: without a sensor all shapes are seen along +z") {

@@ -75,6 +75,29 @@ TEST_CASE("scene plugins: bsdf defaults") {
     bsdf_of<NullBsdf>("null");
 }
 
+TEST_CASE("scene plugins: metals inside what ext_eta names") {
+    // Mitsuba 0.6's documentation of `conductor`: both parts over the index outside.
+    const std::string gold = "<string name=\"material\" value=\"Au\"/>";
+    const auto alone = bsdf_of<ConductorBsdf>("conductor", gold).index;
+    for (const auto& [text, outside] :
+         {std::pair("<string name=\"ext_eta\" value=\"Water\"/>", 1.333),
+          std::pair("<float name=\"ext_eta\" value=\"0.5\"/>", 0.5),
+          std::pair("<float name=\"ext_eta\" value=\"1\"/>", 1.0)}) {
+        for (const auto& index :
+             {bsdf_of<ConductorBsdf>("conductor", gold + text).index,
+              bsdf_of<RoughConductorBsdf>("roughconductor", gold + text).index}) {
+            CHECK(index.eta.constant == alone.eta.constant / outside);
+            CHECK(index.k.constant == alone.k.constant / outside);
+        }
+    }
+    const std::string textured = "<texture name=\"eta\" type=\"checkerboard\"/>";
+    CHECK_THROWS_WITH(
+        bsdf_of<ConductorBsdf>("conductor", textured + "<float name=\"ext_eta\" value=\"2\"/>"),
+        Contains("1 where \"eta\" or \"k\" is a texture"));
+    CHECK(bsdf_of<ConductorBsdf>("conductor", textured + "<float name=\"ext_eta\" value=\"1\"/>")
+              .index.eta.texture);
+}
+
 TEST_CASE("scene plugins: bsdf parameters") {
     const auto glass = bsdf_of<DielectricBsdf>(
         "dielectric", "<string name=\"int_ior\" value=\"Diamond\"/>"

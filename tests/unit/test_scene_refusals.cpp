@@ -203,3 +203,14 @@ TEST_CASE("scene refusals: sensors and integrators out of range") {
     CHECK_THAT(refusal_of_text(integrator("aov", "")),
                Contains("scene.xml:2") && Contains("\"aovs\""));
 }
+
+TEST_CASE("scene refusals: one line tells of all values of a spectrum") {
+    const std::string refusal =
+        refusal_of_body("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" value=\"400:2 "
+                        "500:.5 600:-1 700:3\"/>"
+                        "</bsdf>");
+    CHECK_THAT(
+        refusal,
+        Contains("\"reflectance\" is 2, and 2 more of its values like it (accepted: 0 to 1)"));
+    CHECK_THAT(refusal, !Contains("\n"));
+}

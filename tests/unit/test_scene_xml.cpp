@@ -144,6 +144,13 @@ TEST_CASE("scene xml: files outside the scene's folder need leave") {
     CHECK_THAT(refusal_of(folder.write("inner/scene.xml", body("no.obj"))),
                Contains("scene.xml:3") && Contains("\"no.obj\" not found (looked in: \"") &&
                    Contains("inner\")"));
+    std::filesystem::create_directory(folder.path() / "inner" / "meshes");
+    CHECK_THAT(refusal_of(folder.write("inner/scene.xml", body("meshes"))),
+               Contains("scene.xml:3") && Contains("\"meshes\" not found: it is a folder (looked"));
+    CHECK_THAT(refusal_of(folder.write("inner/scene.xml", body("/dev/null"))),
+               Contains("\"/dev/null\" not found: it is neither a file nor a folder"));
+    CHECK_THAT(refusal_of(folder.write("inner/scene.xml", scene_text("<path value=\"a.obj\"/>"))),
+               Contains("folder \"a.obj\" not found: it is a file"));
 }
 
 TEST_CASE("scene xml: document types and entities are refused") {

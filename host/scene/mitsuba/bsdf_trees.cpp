@@ -46,8 +46,9 @@ std::vector<Nested> read_nested(Reading& r, std::size_t fewest, std::size_t most
     r.p.finish();
     if (children.size() < fewest || children.size() > most)
         refuse(r.object.location,
-               fmt::format("{} holds {} bsdfs (accepted: {}{})", r.p.title(), children.size(),
-                           fewest, most > fewest ? fmt::format(" or {}", most) : ""));
+               fmt::format("{} holds {} bsdf{} (accepted: {}{})", r.p.title(), children.size(),
+                           children.size() == 1 ? "" : "s", fewest,
+                           most > fewest ? fmt::format(" or {}", most) : ""));
     std::vector<Nested> nested;
     for (const Child* const child : children) {
         const Object& object = r.p.target(*child);

@@ -118,8 +118,7 @@ Textured<Rgb> read_magnitudes(Properties& p, std::string_view name, const Textur
     return magnitude;
 }
 
-parameter::ComplexIndex::Value read(parameter::ComplexIndex, Properties& p, std::string_view,
-                                    parameter::ComplexIndex::Value index) {
+parameter::ComplexIndex::Value read_metal(Properties& p, parameter::ComplexIndex::Value index) {
     const bool spectra = p.has("eta") || p.has("k");
     if (!p.has("material")) {
         index.eta = read_magnitudes(p, "eta", index.eta);
@@ -132,6 +131,17 @@ parameter::ComplexIndex::Value read(parameter::ComplexIndex, Properties& p, std:
     for (const ConductorPreset& preset : conductor_presets)
         if (preset.name == wanted) return {preset.eta, preset.k};
     p.refuse_value("material", in_quotes(wanted), names_of(conductor_presets));
+}
+
+parameter::ComplexIndex::Value read(parameter::ComplexIndex, Properties& p, std::string_view,
+                                    const parameter::ComplexIndex::Value& missing) {
+    const parameter::ComplexIndex::Value metal = read_metal(p, missing);
+    const double outside = read_index(p, "ext_eta", 1.0);
+    if (outside == 1.0) return metal;
+    if (metal.eta.texture || metal.k.texture)
+        p.refuse_value("ext_eta", fmt::format("{} beside a texture", outside),
+                       "1 where \"eta\" or \"k\" is a texture");
+    return {metal.eta.constant / outside, metal.k.constant / outside};
 }
 
 MicrofacetDistribution read_distribution(Properties& p) {

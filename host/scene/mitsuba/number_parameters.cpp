@@ -109,6 +109,8 @@ std::vector<NumberParameter> material_parameters() {
 }
 
 const NumberParameter other_parameters[] = {
+    {"bsdf", "conductor roughconductor", "ext_eta", real, refractive_index,
+     "1 where eta or k is a texture"},
     {"bsdf", "mask", "opacity", color, share},
     {"bsdf", "blendbsdf", "weight", color, share},
     {"bsdf", "polarizer circular retarder", "transmittance", color, share, "a grey"},

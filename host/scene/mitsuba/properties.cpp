@@ -129,6 +129,22 @@ double Properties::checked(std::string_view name, double value) {
     return *taken;
 }
 
+bool Properties::check_each(std::string_view name, std::vector<double>& values) {
+    const auto outside = [&](double value) { return !placed(domain(name), value); };
+    const auto first = std::find_if(values.begin(), values.end(), outside);
+    const auto more = std::count_if(first, values.end(), outside) - 1;
+    if (first != values.end()) {
+        keep(name,
+             more > 0 ? fmt::format("{}, and {} more of its values like it", *first, more)
+                      : fmt::format("{}", *first),
+             accepted_text(domain(name)));
+        return false;
+    }
+    for (double& value : values)
+        value = checked(name, value);
+    return true;
+}
+
 double Properties::number(std::string_view name, double missing) {
     const Parameter* const parameter = take(name);
     if (!parameter) return missing;
@@ -215,8 +231,7 @@ Rgb Properties::color(std::string_view name, const Rgb& missing, SpectrumUse use
                 checked(name, rgb->color.b)};
     if (const auto* spectrum = std::get_if<SpectrumValue>(&parameter->value)) {
         SpectrumValue inside = *spectrum;
-        for (double& v : inside.values)
-            v = checked(name, v);
+        if (!check_each(name, inside.values)) return missing;
         const ConvertedSpectrum converted = to_rgb(inside, use);
         if (converted.clamped)
             note(name, fmt::format("{} lies outside the sRGB gamut and was moved to its border",

@@ -89,6 +89,8 @@ private:
     TextureUse texture_use(std::string_view name, const Object& texture);
     const Parameter* find(std::string_view name) const;
     const Domain& domain(std::string_view name) const;
+    /// As `checked`; of several that are refused one line tells. Whether none is.
+    bool check_each(std::string_view name, std::vector<double>& values);
     template<typename T>
     const T* take_as(std::string_view name, const char* accepted);
 

@@ -47,6 +47,7 @@ private:
     void add_shape(const Object& object);
     void add_emitter(const Object& object);
     void set_sensor(const std::string& file);
+    void note_fault_of(const Object& sensor);
     void set_integrator(const Child& child);
     SurfaceMaterials materials_of(const Object& object);
     SurfaceMaterials default_material(bool emits);
@@ -142,6 +143,19 @@ void SceneBuilder::set_sensor(const std::string& file) {
     scene_.camera = parts.camera;
     scene_.film = parts.film;
     scene_.sampler = std::move(parts.sampler);
+    for (const Child* const other : sensors_)
+        if (other != sensors_[index]) note_fault_of(document_.objects[other->object]);
+}
+
+/// What another sensor has wrong changes nothing in this picture.
+void SceneBuilder::note_fault_of(const Object& sensor) {
+    std::vector<std::string> unused;
+    try {
+        static_cast<void>(read_sensor(document_, sensor, unused));
+    } catch (const InputError& error) {
+        for (const std::string_view line : split(error.what(), "\n"))
+            scene_.notes.push_back(std::string(line) + ": it is not the chosen sensor");
+    }
 }
 
 void SceneBuilder::set_integrator(const Child& child) {
