@@ -39,8 +39,9 @@ def main():
     order = json.loads(sys.argv[-1])
     mitsuba.set_variant(order["variant"])
     mitsuba.set_log_level(mitsuba.LogLevel.Error)
-    drjit.set_thread_count(order["threads"])
+    drjit.set_thread_count(max(2, order["threads"]))  # with one thread, loading several images waits for ever
     scene = load(order)
+    drjit.set_thread_count(order["threads"])
     warm = set()
 
     def render(job):
