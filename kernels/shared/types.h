@@ -278,8 +278,7 @@ LAYOUT(CameraRecord, 120);
     X(int, segment_size)                      /* path slots owned by one work-item */               \
     X(int, segment_stride)                    /* their entries in the path state, with padding */   \
     X(int, aov_channels)                                                                           \
-    /* BVH roots: for camera rays and for paths behind them; for shadow rays of what lets nothing through, and of the rest */ \
-    X(int, camera_root) X(int, root) X(int, blocking_root) X(int, clear_root)
+    X(int, camera_root) X(int, root) X(int, blocking_root) X(int, clear_root) // of all; what shadow rays do not get through, and do
 typedef struct {
     CameraRecord camera;
     RENDER_FIELDS(FIELD_DECLARE)
