@@ -18,7 +18,7 @@ numerics::RayLayout layout_of(std::size_t rays, const WorkSizes& s) {
 
 OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::size_t primitives)
     : device_(device) {
-    int lanes = device.device.lanes();
+    int lanes = device.device.tracing_lanes();
     ProgramOptions options{lanes, {feature_shape_triangle}, false};
     options.features.set(feature_ray_streams, traced_in_streams(primitives));
     Program program(device.context, device.device, device.cache,

@@ -131,7 +131,7 @@ nlohmann::json measure_scene(TriangleScene scene, int resolution, int repeats,
             {"bytes_per_triangle", static_cast<double>(world.statistics.bytes) / count},
             {"embree_bytes_per_triangle", static_cast<double>(world.usual.bytes()) / count},
             {"device", device.device.name},
-            {"lanes", device.device.lanes()},
+            {"lanes", device.device.tracing_lanes()},
             {"sets", rows}};
 }
 

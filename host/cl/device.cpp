@@ -101,6 +101,8 @@ int Device::lanes() const {
     return float_width >= 16 ? 16 : 8;
 }
 
+int Device::tracing_lanes() const { return is_cpu && float_width >= 8 ? 16 : lanes(); }
+
 DeviceList list_devices() {
     work_folder({ProgramCache::standard().folder()}); // before the driver asks for one
     DeviceList list;

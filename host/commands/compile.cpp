@@ -56,7 +56,9 @@ int run_compile(const CompileCommand& c) {
                          .work_group_size = c.image.options.split.work_group_size};
     progress.finish(fmt::format("{}", fmt::join(options.features.names(), " ")));
     RenderDevice& device = open_to_the_end(choose_device(c.image.device));
-    options.lanes = c.image.options.lanes > 0 ? c.image.options.lanes : device.device.lanes();
+    const int lanes = c.image.options.lanes;
+    options.lanes = lanes > 0 ? lanes : device.device.lanes();
+    options.tracing_lanes = lanes > 0 ? lanes : device.device.tracing_lanes();
     progress.start("compiling kernels");
     bool cached = true;
     std::vector<std::string> notes;
@@ -91,7 +93,7 @@ std::vector<std::string> own_command(const Device& device, ProgramGroup group,
                                      "--device",
                                      std::to_string(device.index),
                                      "--lanes",
-                                     std::to_string(options.lanes),
+                                     std::to_string(lanes_of(group, options)),
                                      "--work-group-size",
                                      std::to_string(options.work_group_size)};
     if (options.portable) command.emplace_back("--portable");

@@ -36,6 +36,7 @@ nlohmann::json to_json(const Tested& t) {
             {"largest_buffer_bytes", d.max_allocation_bytes},
             {"float_width", d.float_width},
             {"lanes", d.lanes()},
+            {"tracing_lanes", d.tracing_lanes()},
             {"fp64", d.fp64},
             {"correctly_rounded", !d.rounding_option.empty()},
             {"largest_work_group", largest_work_group(d)},
@@ -47,11 +48,12 @@ std::string text_of(const Tested& t) {
     return fmt::format(
         "{}: {}\n   {} ({}), driver {}, {}\n"
         "   {} compute units, {:.1f} GB memory, largest buffer {:.1f} GB, {} floats a vector, {} "
-        "lanes, fp64 {}\n   self-test {}\n",
+        "lanes, {} rays at once, fp64 {}\n   self-test {}\n",
         d.index, d.name, d.platform, d.vendor, d.driver_version, d.opencl_version, d.compute_units,
         static_cast<double>(d.memory_bytes) / 1e9,
         static_cast<double>(d.max_allocation_bytes) / 1e9, d.float_width, d.lanes(),
-        d.fp64 ? "yes" : "no", t.failure.empty() ? "passed" : "FAILED: " + t.failure);
+        d.tracing_lanes(), d.fp64 ? "yes" : "no",
+        t.failure.empty() ? "passed" : "FAILED: " + t.failure);
 }
 
 int run_devices(bool json) {

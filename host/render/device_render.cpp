@@ -50,8 +50,12 @@ DeviceWaves compiled(RenderDevice& device, const DeviceScene& flat, const Render
                      Progress& progress, RenderReport& report) {
     progress.start("compiling kernels");
     auto start = Clock::now();
-    DeviceWaves waves(device, {report.lanes, options.portable, render_features(flat, options),
-                               options.split.work_group_size, options.checked});
+    DeviceWaves waves(device, {.lanes = report.lanes,
+                               .tracing_lanes = report.tracing_lanes,
+                               .portable = options.portable,
+                               .features = render_features(flat, options),
+                               .work_group_size = options.split.work_group_size,
+                               .checked = options.checked});
     report.compile_seconds = seconds_since(start);
     report.stages = waves.stage_reports();
     report.compiler_peak_bytes = waves.compiler_peak_bytes();
@@ -125,6 +129,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     report.device = device.device.name;
     report.driver = device.device.driver_version;
     report.lanes = options.lanes > 0 ? options.lanes : device.device.lanes();
+    report.tracing_lanes = options.lanes > 0 ? options.lanes : device.device.tracing_lanes();
     WorkSplit split = options.split;
     split.streams = options.checked ? 1 : stream_count(split, device.device);
     WorkSizes sizes =

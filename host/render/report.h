@@ -25,7 +25,7 @@ struct RenderReport {
     std::string scene_file, device, driver;
     std::vector<std::string> notes; ///< of the scene
     bool lenient = false;           ///< whether it was read leniently
-    int lanes = 1, width = 0, height = 0, samples_per_pixel = 0;
+    int lanes = 1, tracing_lanes = 1, width = 0, height = 0, samples_per_pixel = 0;
     std::uint32_t seed = 0;
     int replicates = 1;
     std::string sampler; ///< pattern of the samples: "faure" or "independent"

@@ -37,11 +37,17 @@ inline constexpr std::size_t stage_count = stage_names.size();
 /// What programs are compiled for.
 struct StageOptions {
     int lanes = 1;
+    int tracing_lanes = 0; ///< of the program that walks the tree; 0: as many
     bool portable = false;
     FeatureSet features{};
     int work_group_size = 1;
     bool checked = false; ///< kernels look after the bounds of buffers (kernels/device/bounds.h)
 };
+
+constexpr int lanes_of(ProgramGroup group, const StageOptions& options) {
+    const bool own = group == ProgramGroup::tracing && options.tracing_lanes > 0;
+    return own ? options.tracing_lanes : options.lanes;
+}
 
 /// What surfaces are made of, for those that let light through.
 constexpr FeatureSet clear_surface_features() {
