@@ -143,6 +143,11 @@ void decide_lights(const DeviceScene& records, FeatureDecisions& out) {
     out.decide(feature_projected_textures, projected > 0,
                fmt::format("{} of {} shines through one", projected, counted(lights, "light")));
     out.decide(feature_several_lights, lights > 1, counted(lights, "light"));
+    bool daylight = out.has(feature_emitter_sunsky);
+    const Environment& around = records.environment;
+    out.decide(feature_daylight_sky, daylight && around.texture >= 0,
+               daylight ? "a sunsky" : "no sunsky");
+    out.decide(feature_daylight_sun, daylight && around.sun, daylight ? "a sunsky" : "no sunsky");
 }
 
 /// What of light transport an integrator asks for, and the scene has.
@@ -313,7 +318,8 @@ FeatureSet neutral_features() {
     for (Feature f : geometry_features)
         neutral.set(f);
     for (Feature f : emitter_features)
-        neutral.set(f, f != feature_emitter_constant && f != feature_emitter_envmap);
+        neutral.set(f, f != feature_emitter_constant && f != feature_emitter_envmap &&
+                           f != feature_emitter_sunsky);
     return neutral;
 }
 

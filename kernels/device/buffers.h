@@ -18,7 +18,7 @@
     X(int, texels) /* of images, one behind the other */                                           \
     X(float, byte_values) X(LightRecord, lights) X(int, light_textures) /* LIGHT_TEXTURE_WORDS a row */ \
     X(LightNodeRecord, light_nodes) X(int, light_leaves) /* the leaf of each light */              \
-    X(int, environment) /* shares of the cells of a sky's image (device/environment.h) */           \
+    X(int, environment) /* of a sky: environment.h, and words before that: daylight.h */           \
     X(float, energy_tables)                                                                        \
     X(FilterBin, filter_table) X(float, filter_values) /* at n / FILTER_INTERVALS pixels */
 
