@@ -103,7 +103,7 @@ void set_sun(Daylight& d, const SunskyEmitter& e) {
 
 /// Of columns and rows; an even number of rows of cells, so that the horizon is a row of texels.
 /// Twice as many make the weights' variance no less.
-constexpr int guide_width = 128, guide_rows = 65;
+constexpr int guide_width = 64, guide_rows = 33;
 
 double brightness_of(const Rgb& c) {
     return (std::fabs(c.r) + std::fabs(c.g) + std::fabs(c.b)) / 3.0;

@@ -88,9 +88,8 @@ void check_old(Properties& p) {
         static_cast<void>(p.integer("resolution", 1));
         p.note("resolution", "\"resolution\" is not used, nothing is made an image of");
     }
-    p.note("", p.title() + " is taken as the sun and the sky of Mitsuba 3, by Hosek and Wilkie: "
-                           "the sun's brightness and colour differ from those of Mitsuba 0.x, by "
-                           "Preetham");
+    p.note("", p.title() + " is read as the sun and the sky of Mitsuba 3, by Hosek and Wilkie: of "
+                           "Mitsuba 0.x, whose sun is Preetham's, brightness and colour differ");
 }
 
 void check_extend(Properties& p) {
