@@ -9,7 +9,7 @@
 namespace parhelion {
 
 /// What tables tell of one sun's place, air and ground: coefficients in the order of
-/// DAYLIGHT_SKY_FIELDS (kernels/shared/types.h), radiance last.
+/// DAYLIGHT_SKY_FIELDS (kernels/device/buffers.h), radiance last.
 struct Daylight {
     bool sky = false, sun = false; ///< there, and shining
     std::array<std::array<double, DAYLIGHT_SKY_WORDS>, 3> colors{};
@@ -32,5 +32,8 @@ TextureUse guide_of(const SunskyEmitter& emitter);
 /// The words and the table of what the guide in row `texture` guides to.
 Environment daylight_environment(const SunskyEmitter& emitter, const DeviceScene& records,
                                  int texture);
+
+/// Which of the two shines. After the kinds of lights.
+void decide_daylight(const DeviceScene& records, FeatureDecisions& out);
 
 } // namespace parhelion

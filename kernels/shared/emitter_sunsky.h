@@ -1,7 +1,7 @@
 // The sun, and the clear sky about it by the formula of Hosek and Wilkie 2012, "An analytic model
 // for full spectral sky-dome radiance": in the sky's own frame, whose y is up. a, b, c: the frame's
-// axes in world space (orthonormal), rgb: what the words of types.h (DAYLIGHT_*) are multiplied by.
-// Nothing shines from below the horizon.
+// axes in world space (orthonormal), rgb: what the words of device/buffers.h (DAYLIGHT_*) are
+// multiplied by. Nothing shines from below the horizon.
 //
 // Directions are chosen within the sun's cone, uniformly, or by the table of an image of the sky
 // (device/daylight.h): as many of 256 as the words say.
@@ -23,7 +23,7 @@ FN DaylightPlace daylight_place(vec3 w, vec3 sun) {
     return p;
 }
 
-/// Of one colour, what DAYLIGHT_SKY_FIELDS of types.h lists.
+/// Of one colour, what DAYLIGHT_SKY_FIELDS lists.
 typedef struct {
     Real a, b, c, d, e, f, g, i, h, radiance;
 } SkyFormula;

@@ -138,18 +138,6 @@
     X(float, cx) X(float, cy) X(float, cz)                                                         \
     X(float, r) X(float, g) X(float, b) X(float, pmf) X(float, area) X(float, extra)
 
-// Words of a sunsky before its table of shares, floats: direction of the sun in the sky's frame; how far the edge of its disk is from its
-// middle, the square of the chord; of 256 directions how many are chosen by the table; radiance of the sun; of red, green and blue the
-// coefficients A to I of the sky in the formula's order, and the radiance that it scales.
-#define DAYLIGHT_SUN_DIRECTION 0
-#define DAYLIGHT_SUN_EDGE 3
-#define DAYLIGHT_SKY_SHARE 4
-#define DAYLIGHT_SUN_RADIANCE 5
-#define DAYLIGHT_SKY 8
-#define DAYLIGHT_SKY_FIELDS(X) X(a) X(b) X(c) X(d) X(e) X(f) X(g) X(i) X(h) X(radiance)
-#define DAYLIGHT_SKY_WORDS 10
-#define DAYLIGHT_WORDS (DAYLIGHT_SKY + 3 * DAYLIGHT_SKY_WORDS)
-
 // A node of the light tree: lights within a sphere, whose axes lie in a cone. Siblings stand side by side, the left one at an
 // even place; nodes 0 and 1 are the children of the root.
 #define LIGHT_NODE_FIELDS(X)                                                                       \

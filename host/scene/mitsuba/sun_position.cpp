@@ -41,14 +41,14 @@ SunPosition sun_position(const TimeAndPlace& at) {
     const double sidereal_hours = 6.6974243242 + 0.0657098283 * days + hours;
     const double hour_angle = (sidereal_hours * 15.0 + at.longitude) * degree - ascension;
     const double latitude = at.latitude * degree;
-    const double zenith =
-        std::acos(std::cos(latitude) * std::cos(hour_angle) * std::cos(declination) +
-                  std::sin(declination) * std::sin(latitude));
-    const double azimuth =
-        std::atan2(-std::sin(hour_angle), std::tan(declination) * std::cos(latitude) -
-                                              std::sin(latitude) * std::cos(hour_angle));
+    const double up = std::cos(latitude) * std::cos(hour_angle) * std::cos(declination) +
+                      std::sin(declination) * std::sin(latitude);
+    const double north = std::sin(declination) * std::cos(latitude) -
+                         std::cos(declination) * std::cos(hour_angle) * std::sin(latitude);
+    const double east = -std::cos(declination) * std::sin(hour_angle);
+    const double zenith = std::atan2(std::hypot(north, east), up);
     // Seen from the surface and not from the earth's middle.
-    return {zenith + earth_radius_in_distances * std::sin(zenith), azimuth};
+    return {zenith + earth_radius_in_distances * std::sin(zenith), std::atan2(east, north)};
 }
 
 } // namespace parhelion::mitsuba
