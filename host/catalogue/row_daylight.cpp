@@ -11,7 +11,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace parhelion::stress {
 namespace {
@@ -100,7 +105,8 @@ struct Cells {
                 to_world(frame, f64::v3(sine * std::cos(phi), sine * std::sin(phi), 1 - lost));
             return {{w.x, w.y, w.z}, sun.solid_angle() / (sides * sides)};
         }
-        double first = 0.5 * pi * (cell / around) / down, height = 0.5 * pi / down;
+        int row = cell / around;
+        double first = 0.5 * pi * row / down, height = 0.5 * pi / down;
         double cosines = std::cos(first) - std::cos(first + height);
         double y = std::cos(first) - 0.5 * cosines, r = std::sqrt(1 - y * y);
         double phi = 2 * pi * (cell % around + 1.0) / around;

@@ -9,8 +9,12 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace parhelion {
 namespace {
@@ -112,13 +116,13 @@ double brightness_of(const Rgb& c) {
 /// Of texels down to the horizon.
 void fill_guide(const Daylight& daylight, std::span<std::byte> to) {
     std::vector<float> values(to.size() / sizeof(float));
+    std::size_t texel = 0;
     for (int y = 0; 2 * y < guide_rows; y++)
         for (int x = 0; x < guide_width; x++) {
             double turn = 2.0 * pi * (x + 0.5) / guide_width, fall = pi * y / (guide_rows - 1);
             glm::dvec3 w(std::sin(turn) * std::sin(fall), std::cos(fall),
                          -std::cos(turn) * std::sin(fall));
-            values[static_cast<std::size_t>(y * guide_width + x)] =
-                static_cast<float>(brightness_of(daylight.sky_radiance(w)));
+            values[texel++] = static_cast<float>(brightness_of(daylight.sky_radiance(w)));
         }
     std::memcpy(to.data(), values.data(), to.size());
 }
