@@ -24,9 +24,9 @@ struct Environment {
     int texture = -1; ///< its row
     /// Of its cells (kernels/device/environment.h), of a sunsky behind its words.
     LargeVector<int> shares;
-    bool sun = false; ///< a sunsky has one
-    double mean = 0.0;       ///< of its components, over all directions
-    double peak = 0.0;       ///< largest component
+    bool sun = false;  ///< a sunsky has one
+    double mean = 0.0; ///< of its components, over all directions
+    double peak = 0.0; ///< largest component
 };
 
 /// How one of many lights is chosen: by what it may send to the point to be lit, or by its power
