@@ -21,6 +21,7 @@ namespace parhelion::stress {
     X(nested_spheres, one, "Rays", "Of two spheres 4e-6 apart the nearer one shows") \
     X(light_tables, one, "Statistics", "Lights of very unequal power, and filters: shares, draws and densities agree") \
     X(skies, one, "Statistics", "Skies of images: what is seen, which directions are chosen, with which density") \
+    X(daylight, one, "Statistics", "The sun and the sky by their formula: what is seen, which directions are chosen, with which density") \
     X(accumulation, one, "Sums", "A pixel's mean and variance do not drift with its samples") \
     X(density, one, "Statistics", "Samples of every material follow its density (chi-square, Sidak)") \
     X(sampling_ends, one, "Statistics", "Every sampling routine at the ends of its random numbers: finite, with a density or no sample") \

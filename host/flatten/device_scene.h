@@ -21,10 +21,12 @@ struct LightTree {
 
 /// The image of a sky; all means nothing where there is none.
 struct Environment {
-    int texture = -1;        ///< its row
-    LargeVector<int> shares; ///< of its cells (kernels/device/environment.h)
-    double mean = 0.0;       ///< of its components, over all directions
-    double peak = 0.0;       ///< largest component
+    int texture = -1; ///< its row
+    /// Of its cells (kernels/device/environment.h), of a sunsky behind its words.
+    LargeVector<int> shares;
+    bool sun = false;  ///< a sunsky has one
+    double mean = 0.0; ///< of its components, over all directions
+    double peak = 0.0; ///< largest component
 };
 
 /// How one of many lights is chosen: by what it may send to the point to be lit, or by its power

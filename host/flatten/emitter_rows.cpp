@@ -138,6 +138,14 @@ LightRow row_of(const EnvmapEmitter& e, const Surroundings& s) {
     return row;
 }
 
+LightRow row_of(const SunskyEmitter& e, const Surroundings& s) {
+    LightRow row = make_row(emitter_sunsky, s.environment.peak * e.radiance);
+    row.a = e.to_world[0], row.b = e.to_world[1], row.c = e.to_world[2];
+    row.mean = s.environment.mean;
+    row.etendue = row.mean * 4.0 * pi * pi * square(s.box.radius());
+    return row;
+}
+
 Box box_around(const IndexedGeometry& geometry) {
     Box box;
     for (std::size_t i = 0; i < geometry.primitives.size(); i++) {

@@ -131,7 +131,7 @@ double sum_of(const std::vector<double>& values) {
 
 } // namespace
 
-Environment make_environment(const DeviceScene& records, int texture) {
+Environment make_environment(const DeviceScene& records, int texture, int lit_rows) {
     const Texels texels(records, records.textures[static_cast<std::size_t>(texture)]);
     auto rows = static_cast<std::size_t>(texels.rows()) - 1;
     auto width = static_cast<std::size_t>(texels.width());
@@ -143,8 +143,9 @@ Environment make_environment(const DeviceScene& records, int texture) {
     parallel_for(rows, [&](std::size_t row) {
         int number = static_cast<int>(row);
         TexelRow upper = texel_row(texels, number), lower = texel_row(texels, number + 1);
-        std::vector<double> weights =
-            cell_weights(upper, lower, row_weights(number, static_cast<int>(rows)));
+        std::vector<double> weights(width);
+        if (number < lit_rows)
+            weights = cell_weights(upper, lower, row_weights(number, static_cast<int>(rows)));
         sums[row] = sum_of(weights);
         peaks[row] = std::max(upper.peak, lower.peak);
         write_shares(weights, sums[row], shares.subspan(rows + 1 + row * (width + 1), width + 1));

@@ -3,9 +3,14 @@
 
 #include "host/flatten/device_scene.h"
 
+#include <limits>
+
 namespace parhelion {
 
-/// Of the image of row `texture` of the scene's textures, an envmap's.
-Environment make_environment(const DeviceScene& records, int texture);
+inline constexpr int all_rows = std::numeric_limits<int>::max();
+
+/// Of the image of row `texture` of the scene's textures, an envmap's. Of the rows of cells the
+/// first `lit_rows` count.
+Environment make_environment(const DeviceScene& records, int texture, int lit_rows = all_rows);
 
 } // namespace parhelion

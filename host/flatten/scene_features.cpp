@@ -2,6 +2,7 @@
 #include "host/flatten/scene_features.h"
 
 #include "host/flatten/aov_plan.h"
+#include "host/flatten/daylight.h"
 #include "host/flatten/energy_table.h"
 #include "host/flatten/feature_counts.h"
 #include "host/flatten/filter_table.h"
@@ -135,14 +136,14 @@ std::size_t textured_lights(const DeviceScene& records, bool surfaces) {
 void decide_lights(const DeviceScene& records, FeatureDecisions& out) {
     decide_kinds(out, emitter_features, records.lights, "lights",
                  [](const LightRecord& light) { return light.kind; });
-    std::size_t lights = records.lights.size();
-    std::size_t textured = textured_lights(records, true);
+    std::size_t lights = records.lights.size(), textured = textured_lights(records, true);
     std::size_t projected = textured_lights(records, false);
     out.decide(feature_textured_lights, textured > 0,
                fmt::format("{} of {} shines by a texture", textured, counted(lights, "light")));
     out.decide(feature_projected_textures, projected > 0,
                fmt::format("{} of {} shines through one", projected, counted(lights, "light")));
     out.decide(feature_several_lights, lights > 1, counted(lights, "light"));
+    decide_daylight(records, out);
 }
 
 /// What of light transport an integrator asks for, and the scene has.
@@ -304,16 +305,14 @@ void decide_energy_compensation(const Scene& scene, DeviceScene& records) {
 bool traced_in_streams(std::size_t primitives) { return primitives > primitives_for_packets; }
 
 FeatureSet neutral_features() {
-    // Not anisotropy (turns the frame), nor what decides which light is counted, nor views and film
-    // layouts. Normals, texture coordinates and the sky's light row exist only where they are
+    // Not anisotropy (turns the frame), what decides which light is counted, views and film
+    // layouts; normals, texture coordinates and the sky's light row exist only where they are
     // needed.
     FeatureSet neutral{feature_back_materials, feature_ggx, feature_beckmann, feature_ray_streams};
-    for (Feature f : material_features)
+    for (Feature f : {MATERIALS(FEATURE_MATERIAL) GEOMETRIES(FEATURE_GEOMETRY)})
         neutral.set(f);
-    for (Feature f : geometry_features)
-        neutral.set(f);
-    for (Feature f : emitter_features)
-        neutral.set(f, f != feature_emitter_constant && f != feature_emitter_envmap);
+    for (Feature f : {EMITTERS_BY_ROW(FEATURE_EMITTER)})
+        neutral.set(f, f != feature_emitter_constant);
     return neutral;
 }
 

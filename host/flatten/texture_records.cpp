@@ -2,6 +2,7 @@
 #include "host/flatten/texture_records.h"
 
 #include "host/flatten/attribute_texels.h"
+#include "host/flatten/daylight.h"
 #include "host/flatten/environment_shares.h"
 #include "host/flatten/material_records.h"
 #include "host/flatten/texture_bounds.h"
@@ -148,6 +149,16 @@ void add_attributes(const Scene& scene, const TextureRows& rows, DeviceScene& ou
             add_attribute(scene, *a, static_cast<int>(row), out, bounds);
 }
 
+/// `texture`: the row of the sky's image.
+void add_environment(const Scene& scene, int texture, DeviceScene& out) {
+    for (const Emitter& emitter : scene.emitters)
+        if (const auto* sky = std::get_if<SunskyEmitter>(&emitter)) {
+            out.environment = daylight_environment(*sky, out, texture);
+            return;
+        }
+    if (texture >= 0) out.environment = make_environment(out, texture);
+}
+
 } // namespace
 
 std::vector<std::shared_ptr<const Texture>> textures_of(const Scene& scene) {
@@ -181,7 +192,7 @@ void add_textures(const Scene& scene, DeviceScene& out) {
     check_values(rows, bounds);
     add_means(scene, rows, images, out);
     if (bytes) out.byte_values = make_byte_values();
-    if (named.of_sky >= 0) out.environment = make_environment(out, named.of_sky);
+    add_environment(scene, named.of_sky, out);
 }
 
 std::span<const TextureRecord> textures_by_place(const DeviceScene& records) {

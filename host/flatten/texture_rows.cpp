@@ -1,6 +1,7 @@
 // Who in a scene names which texture, and the row of each on the device.
 #include "host/flatten/texture_rows.h"
 
+#include "host/flatten/daylight.h"
 #include "host/flatten/material_records.h"
 
 #include <algorithm>
@@ -29,7 +30,10 @@ void set_tilt(MaterialTexturesRecord& t, const Tilt& tilt, const SceneFrame& fra
 /// Of the image around everything, the last; -1: none.
 int sky_row(const Scene& scene, TextureRows& rows) {
     for (const Emitter& emitter : scene.emitters)
-        if (const auto* sky = std::get_if<EnvmapEmitter>(&emitter)) return rows.apart(sky->image);
+        if (const auto* sky = std::get_if<EnvmapEmitter>(&emitter))
+            return rows.apart(sky->image);
+        else if (const auto* daylight = std::get_if<SunskyEmitter>(&emitter))
+            if (const TextureUse guide = guide_of(*daylight)) return rows.apart(guide);
     return -1;
 }
 

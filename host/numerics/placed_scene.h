@@ -80,6 +80,12 @@ inline Emitter placed(EnvmapEmitter e, const Placement& t) {
     return e;
 }
 
+inline Emitter placed(SunskyEmitter e, const Placement& t) {
+    for (int axis = 0; axis < 3; axis++)
+        e.to_world[axis] = t.turn * e.to_world[axis];
+    return e;
+}
+
 inline Camera placed(Camera c, const Placement& t) {
     for (int axis = 0; axis < 3; axis++)
         c.to_world[axis] = glm::dvec4(t.turn * glm::dvec3(c.to_world[axis]), 0);

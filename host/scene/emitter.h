@@ -60,8 +60,20 @@ struct EnvmapEmitter {
     Rgb radiance{1.0};        ///< of a texel of 1
 };
 
+/// The sun and the clear sky about it, at infinity, in a frame of their own whose y is up. The sun
+/// below the horizon shines no more, nor does its sky.
+struct SunskyEmitter {
+    double turbidity = 3.0;                  ///< of the air, 1 to 10
+    Rgb albedo{0.3};                         ///< of the ground
+    glm::dvec3 sun{0, 1, 0};                 ///< unit, towards it
+    double half_aperture = 0.00467574;       ///< the angle under which the sun's radius is seen
+    double sun_scale = 1.0, sky_scale = 1.0; ///< of what each sends; the sun's, whatever its disk
+    glm::dmat3 to_world{1.0};                ///< orthonormal
+    Rgb radiance{1.0};                       ///< what all of it is multiplied by
+};
+
 using Emitter = std::variant<PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter,
-                             EnvmapEmitter, ProjectorEmitter>;
+                             EnvmapEmitter, ProjectorEmitter, SunskyEmitter>;
 
 /// Null for one that shines through nothing.
 inline const Slide* slide_of(const Emitter& e) {
@@ -73,7 +85,8 @@ inline const Slide* slide_of(const Emitter& e) {
 
 /// Light from wherever nothing is.
 inline bool is_sky(const Emitter& e) {
-    return std::holds_alternative<ConstantEmitter>(e) || std::holds_alternative<EnvmapEmitter>(e);
+    return std::holds_alternative<ConstantEmitter>(e) || std::holds_alternative<EnvmapEmitter>(e) ||
+           std::holds_alternative<SunskyEmitter>(e);
 }
 
 } // namespace parhelion

@@ -13,6 +13,7 @@ struct Kernels : WorkItem {
 #define PARHELION_REAL float
 #include "kernels/generate.cl"
 // And of shading:
+#include "device/daylight.h"
 #include "device/environment.h"
 #include "device/light_table.h"
 #undef PARHELION_REAL
@@ -60,15 +61,20 @@ std::array<float, 3> components(const Kernels::vec3& v) { return {v.x, v.y, v.z}
 
 SkyRadiance sky_seen(const DeviceScene& scene, const std::array<float, 3>& w) {
     SkyKernels k(scene);
-    Kernels::SkySeen seen =
-        k.sky_seen(k.tables, k.light, k.texture, vector(w), Kernels::Mask{true});
+    auto towards = [&](auto of) { return (k.*of)(k.tables, k.light, k.texture, vector(w), true); };
+    Kernels::SkySeen seen = scene.features.has(feature_emitter_sunsky)
+                                ? towards(&Kernels::daylight_seen)
+                                : towards(&Kernels::sky_seen);
     return {components(seen.radiance), seen.pdf};
 }
 
 SkyDirection sky_chosen(const DeviceScene& scene, std::uint32_t x, std::uint32_t y) {
     SkyKernels k(scene);
     Kernels::Random4 r{0, 0, x, y};
-    Kernels::EmitterSample s = k.sky_chosen(k.tables, k.light, k.texture, r, Kernels::Mask{true});
+    auto by = [&](auto of) { return (k.*of)(k.tables, k.light, k.texture, r, true); };
+    Kernels::EmitterSample s = scene.features.has(feature_emitter_sunsky)
+                                   ? by(&Kernels::daylight_chosen)
+                                   : by(&Kernels::sky_chosen);
     return {components(s.wi), components(s.weight), s.inverse_pdf};
 }
 

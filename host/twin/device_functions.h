@@ -34,7 +34,8 @@ struct SkyRadiance {
     float pdf; ///< of next event estimation, solid angle
 };
 
-/// What is seen of the scene's envmap towards w (unit): sky_seen of kernels/device/environment.h.
+/// What is seen of the scene's envmap or sunsky towards w (unit): sky_seen and daylight_seen of
+/// kernels/device.
 SkyRadiance sky_seen(const DeviceScene& scene, const std::array<float, 3>& w);
 
 struct SkyDirection {
@@ -42,7 +43,8 @@ struct SkyDirection {
     float inverse_pdf;
 };
 
-/// The direction that next event estimation chooses by 32 random bits each: sky_chosen.
+/// The direction that next event estimation chooses by 32 random bits each: sky_chosen,
+/// daylight_chosen.
 SkyDirection sky_chosen(const DeviceScene& scene, std::uint32_t x, std::uint32_t y);
 
 } // namespace parhelion

@@ -18,7 +18,7 @@
     X(int, texels) /* of images, one behind the other */                                           \
     X(float, byte_values) X(LightRecord, lights) X(int, light_textures) /* LIGHT_TEXTURE_WORDS a row */ \
     X(LightNodeRecord, light_nodes) X(int, light_leaves) /* the leaf of each light */              \
-    X(int, environment) /* shares of the cells of a sky's image (device/environment.h) */           \
+    X(int, environment) /* of a sky: environment.h, and words before that: daylight.h */           \
     X(float, energy_tables)                                                                        \
     X(FilterBin, filter_table) X(float, filter_values) /* at n / FILTER_INTERVALS pixels */
 
@@ -27,6 +27,18 @@
 // FRAME_WORDS floats begin, of the frame that it shines through: what frame_place knows as across and aspect.
 #define LIGHT_TEXTURE_WORDS 3
 #define FRAME_WORDS 4
+
+// Words of a sunsky before its table of shares, floats: direction of the sun in the sky's frame; how far the edge of its disk is from its
+// middle, the square of the chord; of 256 directions how many are chosen by the table; radiance of the sun; of red, green and blue the
+// coefficients A to I of the sky in the formula's order, and the radiance that it scales.
+#define DAYLIGHT_SUN_DIRECTION 0
+#define DAYLIGHT_SUN_EDGE 3
+#define DAYLIGHT_SKY_SHARE 4
+#define DAYLIGHT_SUN_RADIANCE 5
+#define DAYLIGHT_SKY 8
+#define DAYLIGHT_SKY_FIELDS(X) X(a) X(b) X(c) X(d) X(e) X(f) X(g) X(i) X(h) X(radiance)
+#define DAYLIGHT_SKY_WORDS 10
+#define DAYLIGHT_WORDS (DAYLIGHT_SKY + 3 * DAYLIGHT_SKY_WORDS)
 
 // element type, name: what a render works on
 //   path_state    words of PATH_FIELDS x state_stride: live paths, packed at the front of each segment

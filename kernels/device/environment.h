@@ -87,17 +87,31 @@ FN SkySeen sky_seen(SceneTables scene, Light l, int texture, vec3 w, Mask wanted
     return seen;
 }
 
-/// A direction by the last two random numbers of a light's draw.
-FN EmitterSample sky_chosen(SceneTables scene, Light l, int texture, Random4 r, Mask wanted) {
-    global const int* table = scene.environment;
-    Sky sky = load_sky(scene, texture);
+typedef struct {
+    SkyCell cell;
+    SkySample sample;
+} SkyChoice;
+
+/// A place of the image by the last two of these random numbers.
+FN SkyChoice sky_choice(SceneTables scene, global const int* table, Sky sky, Random4 r,
+                        Mask wanted) {
     Int down = asInt(r.z >> 2), along = asInt(r.w >> 2);
     Int row = sky_entry(table, (Int)0, sky.rows, down), cells = sky_row_shares(sky, row);
     Int column = sky_entry(table, cells, sky.image.width, along);
-    SkyCell cell = sky_cell(scene, sky, column, row, wanted);
-    cell.probability = sky_probability(table, sky, column, row);
+    SkyChoice c;
+    c.cell = sky_cell(scene, sky, column, row, wanted);
+    c.cell.probability = sky_probability(table, sky, column, row);
     vec2 u = v2(sky_within(table, cells + column, along), sky_within(table, row, down));
-    SkySample chosen = sky_sample(cell, column, row, sky.image.width, sky.rows, u);
+    c.sample = sky_sample(c.cell, column, row, sky.image.width, sky.rows, u);
+    return c;
+}
+
+/// A direction by the last two random numbers of a light's draw.
+FN EmitterSample sky_chosen(SceneTables scene, Light l, int texture, Random4 r, Mask wanted) {
+    Sky sky = load_sky(scene, texture);
+    SkyChoice choice = sky_choice(scene, scene.environment, sky, r, wanted);
+    SkyCell cell = choice.cell;
+    SkySample chosen = choice.sample;
     Real density = sky_density(cell, chosen.place, sky.image.width, sky.rows);
     Mask lit = wanted & (density > R(0.));
     EmitterSample s = emitter_sample_none();

@@ -2,6 +2,7 @@
 #ifndef PARHELION_SHADE_LIGHT_H
 #define PARHELION_SHADE_LIGHT_H
 
+#include "device/daylight.h"
 #include "device/environment.h"
 #include "device/light_table.h"
 #include "device/light_texture.h"
@@ -42,6 +43,12 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
             d.sample = sel_emitter(sky, sky_chosen(w.scene, light, w.params->sky_texture, r, sky),
                                    d.sample);
     }
+    if (HAS(emitter_sunsky)) {
+        Mask sky = reached & (light.kind == emitter_sunsky);
+        if (someLane(sky))
+            d.sample = sel_emitter(
+                sky, daylight_chosen(w.scene, light, w.params->sky_texture, r, sky), d.sample);
+    }
     if (HAS(textured_lights)) {
         vec3 color = sampled_light_color(w.scene, v.path, pick.row, d.sample.q, reached);
         d.sample.weight = mul3(d.sample.weight, color);
@@ -72,7 +79,9 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
     d.contribution = scale3(mul3(mul3(s.throughput, f.f), d.sample.weight), weight);
     Mask bad = reached & (nought3(d.contribution) != R(0.));
     mark_bad(w.results, v.path.slot, bad, fault_next_event, w.depth);
-    d.lanes = reached & (max_component(d.contribution) > R(0.)) & !bad;
+    vec3 brought = d.contribution;
+    if (HAS(emitter_sunsky)) brought = abs3(brought); // colours of daylight may be less than 0
+    d.lanes = reached & (max_component(brought) > R(0.)) & !bad;
     return d;
 }
 

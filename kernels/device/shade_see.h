@@ -5,6 +5,7 @@
 
 #include "device/camera_lanes.h"
 #include "device/coverage.h"
+#include "device/daylight.h"
 #include "device/environment.h"
 #include "device/light_table.h"
 #include "device/light_texture.h"
@@ -33,6 +34,8 @@ FN vec3 sky_emission(ShadeWork w, Path path, Mask missed, Mask hidden) {
     SkySeen sky;
     if (HAS(emitter_envmap)) {
         sky = sky_seen(w.scene, light, w.params->sky_texture, path.direction, missed);
+    } else if (HAS(emitter_sunsky)) {
+        sky = daylight_seen(w.scene, light, w.params->sky_texture, path.direction, missed);
     } else {
         sky.radiance = light_radiance(light);
         sky.pdf = emitter_constant_pdf(light, path.origin, path.direction, path.origin);
@@ -96,7 +99,7 @@ FN vec3 seen_light(ShadeWork w, PathVertex v) {
     if (HAS(view_normals) || HAS(view_depth)) seen = view_of(w, v);
     if (!HAS(emission)) return seen;
     seen = add3(seen, surface_emission(w, v));
-    if (HAS(emitter_constant) || HAS(emitter_envmap)) {
+    if (HAS(emitter_constant) || HAS(emitter_envmap) || HAS(emitter_sunsky)) {
         Mask sky = v.active & !v.hit, hidden = sky_hidden(w, v);
         if (someLane(sky)) seen = sel3(sky, sky_emission(w, v.path, sky, hidden), seen);
     }

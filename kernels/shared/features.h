@@ -14,8 +14,9 @@
 #define TEXTURES(X) X(bitmap, Bitmap) X(checkerboard, Checkerboard) X(mesh_attribute, MeshAttribute)
 
 // Rows of the light table: name, whether a ray can meet it. An area emitter has one row for each of its primitives.
-#define EMITTERS(X) EMITTERS_BY_ROW(X) X(envmap, 1)
-// Those of which their row tells all; an envmap has an image and a table (device/environment.h).
+#define EMITTERS(X) EMITTERS_BY_ROW(X) X(envmap, 1) X(sunsky, 1)
+// Those of which their row tells all; an envmap has an image and a table (device/environment.h), a sunsky words and a table
+// (device/daylight.h).
 #define EMITTERS_BY_ROW(X)                                                                         \
     X(area_triangle, 1) X(area_parallelogram, 1) X(area_sphere, 1) X(area_disk, 1) X(point, 0)       \
     X(spot, 0) X(directional, 0) X(constant, 1) X(area_tiny_triangle, 1) X(area_cylinder, 1)       \
@@ -63,6 +64,7 @@
     X(light_tree)         /* more than one light to choose from */                                 \
     X(next_event)         /* direct light is sampled at every vertex */                            \
     X(emission)           /* emitters that a ray can meet */                                       \
+    X(daylight_sky) X(daylight_sun) /* of a sunsky, either or both of which shine */                \
     X(scattering)         /* paths go on in directions of the BSDF's choice */                      \
     X(straight_through)   /* some surface lets rays go on as they came, and covers nothing then */  \
     X(clear_shadows)      /* and sampled light goes through some of them, as through masks */        \

@@ -62,6 +62,7 @@
 #include "shared/emitter_point.h"
 #include "shared/emitter_projector.h"
 #include "shared/emitter_spot.h"
+#include "shared/emitter_sunsky.h"
 
 #include "shared/bsdf.h"
 #include "shared/camera.h"

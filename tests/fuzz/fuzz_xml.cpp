@@ -4,6 +4,9 @@
 #include "property.h"
 #include "targets.h"
 
+#include <glm/geometric.hpp>
+
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -61,12 +64,23 @@ void check_side(const Scene& scene, int code, std::size_t blends) {
     }
 }
 
+/// What tables are asked for lies in them.
+void check_sun(const SunskyEmitter& e) {
+    promise(std::abs(glm::length(e.sun) - 1.0) < 1e-6, "the sun stands somewhere");
+    promise(e.turbidity >= 1.0 && e.turbidity <= 10.0, "air is as clear as tables know it");
+    promise(e.half_aperture > 0.0 && e.half_aperture < 1.5708, "the sun is a disk");
+    for (int color = 0; color < 3; color++)
+        promise(e.albedo[color] >= 0.0 && e.albedo[color] <= 1.0, "the ground reflects a share");
+}
+
 void check_scene(const Scene& scene) {
     for (const Shape& shape : scene.shapes) {
         if (const Mesh* const mesh = std::get_if<Mesh>(&shape.geometry)) check_mesh(*mesh);
         for (const int side : {shape.material_front, shape.material_back})
             check_side(scene, side, scene.blends.size());
     }
+    for (const Emitter& emitter : scene.emitters)
+        if (const auto* const daylight = std::get_if<SunskyEmitter>(&emitter)) check_sun(*daylight);
     promise(scene.film.width > 0 && scene.film.height > 0, "the film has pixels");
     promise(scene.sampler.samples_per_pixel > 0, "there are samples");
     for (const std::string& note : scene.notes)

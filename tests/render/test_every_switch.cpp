@@ -35,7 +35,7 @@ bool shows_light(const Integrator& i) {
 /// What the middle of a tile of the panel shows: R, G, B.
 Rgb panel_truth(const Scene& scene, int tile) {
     const Integrator& integrator = scene.integrator;
-    Rgb nothing(0), sky(0);
+    Rgb nothing(0), sky(0); // of a sunsky it sees what lies below the horizon
     for (const Emitter& e : scene.emitters)
         if (const auto* constant = std::get_if<ConstantEmitter>(&e))
             sky = constant->radiance;
@@ -212,6 +212,12 @@ TEST_CASE("A device has the host's bits of two of everything", "[every switch]")
     all.scene.integrator.emitter_samples = false;
     all.scene.integrator.hide_emitters = true;
     check(all);
+    for (auto [sun, sky] : {std::pair(0.1, 3.0), std::pair(0.1, 0.0), std::pair(0.0, 3.0)}) {
+        Setup daylight{two_of_every(), {}};
+        SunskyEmitter& e = put_example_daylight(daylight.scene);
+        e.sun_scale = sun, e.sky_scale = sky;
+        check(daylight);
+    }
     Setup panel = panel_setup();
     panel.scene.integrator.max_depth = 1;
     check(panel);

@@ -75,14 +75,15 @@ struct DomainScene {
                           "</sampler>";
     std::string emitter = "<emitter type='constant'/>";
     std::string shape = "sphere", shape_numbers, bsdf = "<bsdf type='diffuse'/>";
+    const char* version = "3.0.0";
 
     std::string text() const {
         return fmt::format(
-            "<scene version='3.0.0'>{}<sensor type='{}'>{}<transform name='to_world'>"
+            "<scene version='{}'>{}<sensor type='{}'>{}<transform name='to_world'>"
             "<lookat origin='0,0,4' target='0,0,0' up='0,1,0'/></transform>"
             "<film type='{}'>{}{}</film>{}</sensor>{}<shape type='{}'>{}{}</shape></scene>",
-            integrator, camera, camera_numbers, film_plugin, film, filter, sampler, emitter, shape,
-            shape_numbers, bsdf);
+            version, integrator, camera, camera_numbers, film_plugin, film, filter, sampler,
+            emitter, shape, shape_numbers, bsdf);
     }
 };
 
@@ -91,6 +92,8 @@ inline std::string domain_scene(const NumberParameter& p, std::string_view plugi
     DomainScene scene;
     std::string number = number_element(p, value) + companions(plugin, p.name) + beside;
     std::string whole = fmt::format("<{0} type='{1}'>{2}</{0}>", p.tag, plugin, number);
+    if (plugin == "sun" || plugin == "sky" || p.also.ends_with("files before 2.0"))
+        scene.version = "0.6.0";
     if (p.tag == "bsdf") scene.bsdf = whole;
     if (p.tag == "texture")
         scene.bsdf = fmt::format("<bsdf type='diffuse'><texture name='reflectance' type='{}'>{}"

@@ -296,6 +296,13 @@ inline void set_next_event(Setup& s, bool on) { s.scene.integrator.emitter_sampl
 inline void set_emission(Setup& s, bool on) {
     if (!on) leave_light(s.scene, example_lights()[2 * emitter_spot]);
 }
+/// Of the sunsky in the sky's place, if there is one or is to be.
+inline void set_daylight_sky(Setup& s, bool on) {
+    if (on) put_example_daylight(s.scene).sky_scale = 3;
+}
+inline void set_daylight_sun(Setup& s, bool on) {
+    if (on) put_example_daylight(s.scene).sun_scale = 0.1;
+}
 inline void set_scattering(Setup& s, bool on) {
     s.scene.integrator.kind = on ? IntegratorKind::path : IntegratorKind::direct;
     s.scene.integrator.bsdf_samples = on;

@@ -40,4 +40,25 @@ inline void put_example_sky(Scene& scene) {
             e = sky_of(example_sky_texels(), constant->radiance);
 }
 
+/// In the place of the sky that there is, as bright as that says, with the light of its own; none
+/// at first. Up lies where the camera of the panel never looks.
+inline SunskyEmitter& put_example_daylight(Scene& scene) {
+    SunskyEmitter daylight;
+    daylight.turbidity = 2.5, daylight.albedo = Rgb(0.4, 0.3, 0.2);
+    daylight.to_world = {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(-1, 0, 0)};
+    daylight.sun = {0.48, 0.6, -0.64};
+    daylight.half_aperture = 0.05;
+    daylight.sun_scale = daylight.sky_scale = 0;
+    Emitter* place = nullptr;
+    for (Emitter& e : scene.emitters)
+        if (is_sky(e)) place = &e;
+    if (!place) place = &scene.emitters.emplace_back(ConstantEmitter{});
+    if (auto* there = std::get_if<SunskyEmitter>(place)) return *there;
+    if (const auto* constant = std::get_if<ConstantEmitter>(place))
+        daylight.radiance = constant->radiance;
+    if (const auto* image = std::get_if<EnvmapEmitter>(place)) daylight.radiance = image->radiance;
+    *place = daylight;
+    return std::get<SunskyEmitter>(*place);
+}
+
 } // namespace parhelion::test

@@ -97,6 +97,15 @@ TEST_CASE("Bounds: every table of a scene is looked after", "[bounds]") {
     }
 }
 
+TEST_CASE("Bounds: the words of a sun are looked after", "[bounds]") {
+    Scene scene = two_of_every();
+    put_example_daylight(scene).sun_scale = 1;
+    DeviceScene whole = make_device_scene(scene), emptied = whole;
+    run_every_stage(scene, whole, whole);
+    emptied.environment.shares.clear();
+    CHECK_THROWS(run_every_stage(scene, whole, emptied));
+}
+
 TEST_CASE("Bounds: to the byte, and never into another buffer", "[bounds]") {
     std::array<float, 8> memory{};
     auto at = [&](int k) { return reinterpret_cast<std::uintptr_t>(memory.data() + k); };

@@ -5,8 +5,8 @@
 #include "host/twin/device_functions.h"
 #include "test_scene_tools.h"
 #include "tests/support/example_sky.h"
-#include "tests/support/host_render.h"
 #include "tests/support/image_files.h"
+#include "tests/support/lit_square.h"
 #include "tests/support/two_of_every.h"
 
 #include <catch2/catch.hpp>
@@ -57,27 +57,6 @@ std::string refusal_with_sky(const std::string& body) {
     } catch (const InputError& error) {
         return error.what();
     }
-}
-
-Scene square_under(const Emitter& sky, double reflectance) {
-    Scene scene;
-    scene.file = "made by the test";
-    scene.materials = {{"", {}, DiffuseBsdf{Rgb(reflectance)}}};
-    scene.shapes.push_back(shape_of(quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), 0, no_material));
-    scene.emitters = {sky};
-    scene.camera.to_world = glm::dmat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, 1, 0, 0),
-                                       glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 0, 10, 1));
-    scene.camera.fov_degrees = 1;
-    scene.film.width = scene.film.crop_width = scene.film.height = scene.film.crop_height = 1;
-    scene.film.filter.kind = FilterKind::box;
-    scene.integrator.max_depth = 2;
-    scene.sampler.samples_per_pixel = 4096;
-    return scene;
-}
-
-double shown(const Scene& scene, const char* channel = "R") {
-    Image image = host_render(scene, Precision::single_precision).image;
-    return find_channel(image, channel)->values[0];
 }
 
 /// The integral over directions w above a surface facing +z of f(radiance, w.z), by the midpoint

@@ -110,9 +110,11 @@ TEST_CASE("lenient: bsdfs become their nearest kin") {
     auto untextured = bsdf_of<DiffuseBsdf>(
         "<bsdf type='diffuse'><texture type='marble' name='reflectance'/></bsdf>");
     CHECK(untextured.reflectance.constant == Rgb(0.5));
-    Scene sky = lenient_body("<emitter type='sunsky'><float name='turbidity' value='3'/></emitter>"
-                             "<shape type='Sphere'/>");
-    CHECK(std::holds_alternative<ConstantEmitter>(sky.emitters.at(0)));
+    Scene sky = lenient_body("<emitter type='sunsky'><float name='turbidity' value='4'/>"
+                             "<vector name='sun_color' x='1' y='1' z='1'/></emitter>"
+                             "<emitter type='timed_sunsky'/><shape type='Sphere'/>");
+    REQUIRE(sky.emitters.size() == 1);
+    CHECK(std::get<SunskyEmitter>(sky.emitters[0]).turbidity == 4);
     CHECK(sky.shapes.size() == 1);
 }
 

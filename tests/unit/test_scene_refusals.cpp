@@ -7,11 +7,16 @@ using Catch::Matchers::Contains;
 
 TEST_CASE("scene refusals: an unknown plugin is named with what is accepted") {
     const std::pair<std::string, std::string> cases[] = {
-        {"<shape type=\"torus\"/>", "sphere"},       {"<emitter type=\"sunsky\"/>", "constant"},
-        {"<bsdf type=\"measured\"/>", "twosided"},   {"<sampler type=\"blue\"/>", "stratified"},
-        {"<film type=\"specfilm\"/>", "hdrfilm"},    {"<rfilter type=\"sinc\"/>", "lanczos"},
-        {"<medium type=\"homogeneous\"/>", "shape"}, {"<phase type=\"hg\"/>", "shape"},
-        {"<volume type=\"gridvolume\"/>", "shape"},  {"<spectrum type=\"blackbody\"/>", "shape"},
+        {"<shape type=\"torus\"/>", "sphere"},
+        {"<emitter type=\"timed_sunsky\"/>", "constant"},
+        {"<bsdf type=\"measured\"/>", "twosided"},
+        {"<sampler type=\"blue\"/>", "stratified"},
+        {"<film type=\"specfilm\"/>", "hdrfilm"},
+        {"<rfilter type=\"sinc\"/>", "lanczos"},
+        {"<medium type=\"homogeneous\"/>", "shape"},
+        {"<phase type=\"hg\"/>", "shape"},
+        {"<volume type=\"gridvolume\"/>", "shape"},
+        {"<spectrum type=\"blackbody\"/>", "shape"},
     };
     for (const auto& [element, accepted] : cases) {
         const std::size_t start = element.find('"');

@@ -54,6 +54,7 @@ struct Object {
     SourceLocation location;
     std::vector<Parameter> parameters;
     std::vector<Child> children;
+    bool before_2_0 = false; ///< of a file of such a version
 };
 
 struct Document {

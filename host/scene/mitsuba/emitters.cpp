@@ -19,30 +19,12 @@
 
 namespace parhelion::mitsuba {
 
-namespace {
-
-Rgb read_emission(Properties& p, const char* name) {
-    return p.color(name, Rgb(1.0), SpectrumUse::emission);
-}
-
-void refuse_together(Properties& p, const char* name) {
-    if (p.has(name) && p.has("to_world"))
-        p.refuse_value(name, "given together with \"to_world\"", "one or the other");
-}
-
 glm::dvec3 unit_direction(Properties& p, const char* name, const glm::dvec3& direction) {
     const glm::dvec3 unit = unit_vector(direction);
     if (!(glm::length(unit) > 0.5)) p.refuse_value(name, "without a direction", "not zero");
     return unit;
 }
 
-Emitter read_point(Properties& p) {
-    refuse_together(p, "position");
-    const glm::dvec3 moved(p.transform("to_world")[3]);
-    return PointEmitter{p.vector("position", moved), read_emission(p, "intensity")};
-}
-
-/// Refuses what is no rotation, translation, and one scale for all axes.
 void check_similarity(Properties& p, const glm::dmat4& to_world, const char* what) {
     constexpr double tolerance = 1e-4;
     const glm::dmat3 m(to_world);
@@ -55,12 +37,28 @@ void check_similarity(Properties& p, const glm::dmat4& to_world, const char* wha
                                "rotation, translation, uniform scale");
 }
 
-/// Unit vectors that it turns the axes to; none of them 0.
 glm::dmat3 turned_axes(Properties& p, const glm::dmat4& to_world) {
     glm::dmat3 axes(1.0);
     for (int axis = 0; axis < 3; axis++)
         axes[axis] = unit_direction(p, "to_world", glm::dvec3(to_world[axis]));
     return axes;
+}
+
+namespace {
+
+Rgb read_emission(Properties& p, const char* name) {
+    return p.color(name, Rgb(1.0), SpectrumUse::emission);
+}
+
+void refuse_together(Properties& p, const char* name) {
+    if (p.has(name) && p.has("to_world"))
+        p.refuse_value(name, "given together with \"to_world\"", "one or the other");
+}
+
+Emitter read_point(Properties& p) {
+    refuse_together(p, "position");
+    const glm::dvec3 moved(p.transform("to_world")[3]);
+    return PointEmitter{p.vector("position", moved), read_emission(p, "intensity")};
 }
 
 /// What a mesh has is nothing that light could pass through on its way there.
@@ -167,13 +165,16 @@ Emitter read_envmap(Properties& p) {
 
 using EmitterReader = Emitter (*)(Properties&);
 
-constexpr PluginTable<EmitterReader, 7> emitter_plugins = {{{"point", read_point},
-                                                            {"spot", read_spot},
-                                                            {"directional", read_directional},
-                                                            {"constant", read_constant},
-                                                            {"envmap", read_envmap},
-                                                            {"projector", read_projector},
-                                                            {"area", nullptr}}};
+constexpr PluginTable<EmitterReader, 10> emitter_plugins = {{{"point", read_point},
+                                                             {"spot", read_spot},
+                                                             {"directional", read_directional},
+                                                             {"constant", read_constant},
+                                                             {"envmap", read_envmap},
+                                                             {"projector", read_projector},
+                                                             {"sunsky", read_sunsky},
+                                                             {"sun", read_sun},
+                                                             {"sky", read_sky},
+                                                             {"area", nullptr}}};
 
 /// How often Mitsuba picks this emitter; zero would mean that it picks none of its light.
 void read_sampling_weight(Properties& p) {

@@ -71,13 +71,7 @@ constexpr std::array<std::string_view, 24> common_names = {"max_depth",
                                                            "stddev",
                                                            "file_format"};
 
-/// Skies of formulas become an even one.
-constexpr std::array<Kin, 2> kin_of_emitters = {{{"sunsky", "constant"}, {"sky", "constant"}}};
-
 std::optional<std::string_view> kin_name(const Object& object) {
-    if (object.tag == "emitter")
-        for (const Kin& kin : kin_of_emitters)
-            if (kin.tag == object.plugin) return kin.plugin;
     if (object.tag == "bsdf") {
         for (const Kin& kin : kin_of_bsdfs)
             if (kin.tag == object.plugin) return kin.plugin;

@@ -37,6 +37,9 @@ constexpr Domain size = between(1e-100, 1e100);
 /// Narrower ones are less than the rounding of a direction, whatever the film.
 constexpr Domain field_of_view{
     .lowest = 1e-9, .highest = 180, .below_highest = true, .unit = "degrees"};
+/// A narrower one has no more directions in single precision.
+constexpr Domain disk_angle{
+    .lowest = 1e-9, .highest = 180, .below_highest = true, .unit = "degrees"};
 constexpr Domain half_angle = strictly_between(0, 180).in("degrees");
 
 /// Single precision ends there; the parameter that a texture stands for has a domain of its own.
@@ -44,6 +47,7 @@ constexpr Domain texture_value = between(-3.4e38, 3.4e38).zero_below(least_norma
 
 constexpr Domain wavelength = between(1e-3, 1e9).in("nanometres");
 
+constexpr std::string_view old_files = "files before 2.0";
 constexpr std::string_view power = "a power that single precision holds in the scene's unit";
 constexpr const char* cameras = "perspective thinlens orthographic";
 constexpr const char* perspectives = "perspective thinlens";
@@ -133,12 +137,32 @@ const NumberParameter other_parameters[] = {
     {"emitter", "projector", "fov", real, field_of_view},
     {"emitter", "projector", "focal_length", text, between(1e-6, 1e12).in("millimetres")},
     {"emitter", "envmap", "scale", real, radiometric, "and what its image becomes by it"},
+    {"emitter", "sunsky sun sky", "turbidity", real, between(1, 10)},
+    {"emitter", "sunsky sky", "albedo", color, share},
+    {"emitter", "sunsky", "sun_scale", real, radiometric, power},
+    {"emitter", "sunsky", "sky_scale", real, radiometric, power},
+    {"emitter", "sunsky sun sky", "scale", real, radiometric, old_files},
+    {"emitter", "sunsky", "sun_aperture", real, disk_angle},
+    {"emitter", "sunsky sun", "sun_radius_scale", real, between(0, 300), old_files},
+    {"emitter", "sunsky sun sky", "stretch", real, between(1, 2), "1; files before 2.0"},
+    {"emitter", "sunsky sun sky", "resolution", whole, whole_number(1, largest_int), old_files},
+    {"emitter", "sunsky sun sky", "sun_direction", vector, coordinate,
+     "not all 0, and not with a time or place"},
+    {"emitter", "sunsky sun sky", "latitude", real, between(-90, 90).in("degrees")},
+    {"emitter", "sunsky sun sky", "longitude", real, between(-360, 360).in("degrees")},
+    {"emitter", "sunsky sun sky", "timezone", real, between(-24, 24).in("hours")},
+    {"emitter", "sunsky sun sky", "year", whole, whole_number(-4000, 10000)},
+    {"emitter", "sunsky sun sky", "month", whole, whole_number(1, 12)},
+    {"emitter", "sunsky sun sky", "day", whole, whole_number(1, 31)},
+    {"emitter", "sunsky sun sky", "hour", real, between(-1e6, 1e6)},
+    {"emitter", "sunsky sun sky", "minute", real, between(-1e6, 1e6)},
+    {"emitter", "sunsky sun sky", "second", real, between(-1e6, 1e6)},
     {"emitter", "point", "position", vector, coordinate},
     {"emitter", "directional", "direction", vector, coordinate, "not all 0"},
     {"emitter", "spot", "cutoff_angle", real, half_angle},
     {"emitter", "spot", "beam_width", real, between(0, 180).in("degrees"), "up to cutoff_angle"},
-    {"emitter", "point spot directional constant envmap projector area", "sampling_weight", real,
-     greater_than(0)},
+    {"emitter", "point spot directional constant envmap projector sunsky sun sky area",
+     "sampling_weight", real, greater_than(0)},
 
     {"texture", "checkerboard", "color0", color, texture_value, "what its parameter takes"},
     {"texture", "checkerboard", "color1", color, texture_value, "what its parameter takes"},

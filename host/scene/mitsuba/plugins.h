@@ -28,6 +28,18 @@ class Properties;
 /// `fov` along `fov_axis`, or `focal_length`.
 void read_field_of_view(Properties& p, Camera& camera);
 
+/// A rotation, translation, and one scale for all axes, or refused: what else would deform `what`.
+void check_similarity(Properties& p, const glm::dmat4& to_world, const char* what);
+/// Unit vectors that `to_world` turns the axes to; none of them 0.
+glm::dmat3 turned_axes(Properties& p, const glm::dmat4& to_world);
+/// Along the vector that is the parameter; refuses one of no length.
+glm::dvec3 unit_direction(Properties& p, const char* name, const glm::dvec3& direction);
+
+/// The sun and the sky by their formula; `sun` and `sky` are those of files older than 2.0.
+Emitter read_sunsky(Properties& p);
+Emitter read_sun(Properties& p);
+Emitter read_sky(Properties& p);
+
 /// One of the emitters that are no surfaces.
 Emitter read_emitter(const Document& document, const Object& object, Notes& notes);
 

@@ -83,6 +83,7 @@ std::string snake_case(std::string_view name) {
 }
 
 void upgrade_old_object(Object& object) {
+    object.before_2_0 = true;
     for (Child& child : object.children)
         child.name = snake_case(child.name);
     const auto rename = [](auto& named) {
