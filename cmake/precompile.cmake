@@ -2,7 +2,7 @@
 #
 # What is in it makes every file read more: nlohmann/json.hpp would cost each of them 0.3 s, and the few that use it 0.8 s.
 #
-# Every file still includes what it uses: `parhelion lint` checks files without this.
+# Every file still includes what it uses: `parhelion lint` checks files of the program without this, each by itself.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(PARHELION_INTRINSICS <immintrin.h>) # of oneTBB and OpenEXR: 43000 lines
 endif()
