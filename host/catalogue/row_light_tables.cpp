@@ -245,7 +245,7 @@ Check refusals() {
         {R"(<emitter type="constant"><rgb name="radiance" value="inf"/></emitter>)", "inf"},
         {R"(<emitter type="constant"><spectrum name="radiance" value="nan"/></emitter>)", "nan"},
         {R"(<emitter type="constant"><rgb name="radiance" value="-1"/></emitter>)", "radiance"},
-        {R"(<emitter type="sunsky"/>)", "sunsky"}};
+        {R"(<emitter type="timed_sunsky"/>)", "timed_sunsky"}};
     Check check = share_check("tables: refused, with the name of what is wrong", 0,
                               std::size(texts), std::size(texts));
     check.at_least = true, check.unit = "scenes", check.name = check.name.substr(8);
