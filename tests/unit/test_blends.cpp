@@ -170,7 +170,7 @@ TEST_CASE("Blends: refusals", "[blends]") {
     auto refusal = [](const std::string& bsdf) { return refusal_of_body(shape(bsdf)); };
     using Catch::Matchers::Contains;
     CHECK_THAT(refusal(blend(number("weight", "0.5"), red)),
-               Contains("scene.xml:2: bsdf plugin \"blendbsdf\" holds 1 bsdfs (accepted: 2)"));
+               Contains("scene.xml:2: bsdf plugin \"blendbsdf\" holds 1 bsdf (accepted: 2)"));
     CHECK_THAT(refusal(blend("", red + green)), Contains("lacks its parameter \"weight\""));
     CHECK_THAT(refusal(blend(number("weight", "1.5"), red + green)),
                Contains("parameter \"weight\" is 1.5 (accepted: 0 to 1)"));
