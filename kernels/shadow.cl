@@ -24,8 +24,8 @@ FN Mask shadow_packet(global const BvhNode* nodes, global const BvhLine* leaves,
                       RenderParams params, Mask active) {
     TreeSizes sizes = blocking_sizes(params);
     PacketRay rays = packet_ray(ray_at_origin(place), ray_at_direction(place), sizes);
-    PacketHit hit = traverse_packet(nodes, leaves, params.blocking_root, rays, sizes, ray_at_t(place),
-                                    ray_at_excluded(place), active, 1);
+    PacketHit hit = traverse_packet(nodes, leaves, params.blocking_root, rays, sizes,
+                                    ray_at_t(place), ray_at_excluded(place), active, 1);
     return hit.primitive != NO_PRIMITIVE;
 }
 
@@ -37,8 +37,8 @@ kernel void shadow(KERNEL_PARAMETERS) {
     int base = segment * params.segment_stride;
     int end = base + AT(global int, counts, 2 * segment + 1);
     if (HAS(ray_streams))
-        traverse_stream(bvh_nodes, bvh_leaves, params.blocking_root, shadow_state, params.state_stride, base,
-                        end, 1, blocking_sizes(params));
+        traverse_stream(bvh_nodes, bvh_leaves, params.blocking_root, shadow_state,
+                        params.state_stride, base, end, 1, blocking_sizes(params));
     for (int at = base; at < end; at += LANES) {
         Mask active = active_lanes(end - at);
         StatePlace place = state_place(shadow_state, params.state_stride, at);

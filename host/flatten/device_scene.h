@@ -61,7 +61,7 @@ struct DeviceScene {
     int blocking_root = 0; ///< of what shadow rays cannot go through; differs from root where there
                            ///< is something else
     int clear_root = 0;    ///< of that
-    int sky_light = -1;             ///< row of the light table
+    int sky_light = -1;    ///< row of the light table
     FeatureDecisions features;      ///< what the kernels must have, and why
     std::vector<std::string> notes; ///< what single precision makes of the scene that the user
                                     ///< should be told, one line each; beside Scene::notes

@@ -29,9 +29,9 @@ struct Kernels : WorkItem {
 #undef PARHELION_REAL_IS_DOUBLE
 
     Path path_to_clear(const SceneTables& scene, const RenderParams& params, Path p, bool) {
-        PlainHit hit =
-            plain_walk(scene, params.clear_root, packet_ray(p.origin, p.direction, params.tree_sizes),
-                       p.t, p.excluded, false);
+        PlainHit hit = plain_walk(scene, params.clear_root,
+                                  packet_ray(p.origin, p.direction, params.tree_sizes), p.t,
+                                  p.excluded, false);
         p.t = hit.t, p.b1 = hit.b1, p.b2 = hit.b2, p.primitive = hit.primitive;
         return p;
     }

@@ -21,7 +21,8 @@ namespace {
 
 ProgramSource group_source(ProgramGroup group, const StageOptions& options) {
     // Intrinsics have no bounds.
-    ProgramOptions program{lanes_of(group, options), {}, options.portable || options.checked, options.checked};
+    ProgramOptions program{
+        lanes_of(group, options), {}, options.portable || options.checked, options.checked};
     std::vector<std::string> files;
     for (std::size_t i = 0; i < stage_count; i++) {
         if (stage_groups[i] != group) continue;
