@@ -2,6 +2,7 @@
 // by them against the integral of the density that is asked for again, their light against its
 // integral.
 #include "host/catalogue/rows.h"
+#include "host/catalogue/sky_draws.h"
 
 #include "host/flatten/daylight.h"
 #include "host/numerics/every_kind_scene.h"
@@ -48,15 +49,6 @@ std::vector<Case> cases() {
             {"a wide sun", daylight(2, 1.2, 0.5, 1, 0)},
             {"a narrow sun", daylight(6, 0.3, 1e-3, 1, 0)},
             {"a dim sun in the zenith", daylight(1, 0.5 * pi, disk, 0.02, 1)}};
-}
-
-Scene scene_under(const Case& c) {
-    Scene scene;
-    scene.file = c.name;
-    scene.materials.push_back({"", {}, DiffuseBsdf{}});
-    scene.shapes.push_back(shape_of(quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}), 0, no_material));
-    scene.emitters.push_back(c.emitter);
-    return scene;
 }
 
 std::array<float, 3> single(const glm::dvec3& w) {
@@ -132,9 +124,9 @@ struct Cells {
 };
 
 struct Draws {
-    double p = 1;               ///< chi-square over the cells
-    double whole = 0;           ///< integral of the density
-    Worst density, weight;      ///< relative
+    double p = 1;     ///< chi-square over the cells
+    double whole = 0; ///< integral of the density
+    SkyWorst worst;
     double mean = 0, sigma = 0; ///< of the weights' red, and its standard error
 };
 
@@ -147,13 +139,10 @@ Draws draw(const Case& c, const DeviceScene& flat, std::uint64_t count, Random& 
         SkyDirection chosen = sky_chosen(flat, random.bits(), random.bits());
         draws.mean += chosen.weight[0], squares += double{chosen.weight[0]} * chosen.weight[0];
         observed[cells.of(wide3(chosen.wi))]++;
-        SkyRadiance seen = sky_seen(flat, chosen.wi);
         glm::dvec3 apart = wide3(chosen.wi) - cells.sun.direction;
         bool at_edge = std::fabs(glm::length(apart) / std::sqrt(cells.sun.edge) - 1) < 1e-2;
         if (at_edge || chosen.wi[1] < 1e-5F) continue; // rounding may take it across
-        draws.density.add(std::fabs(double{seen.pdf} * chosen.inverse_pdf - 1));
-        draws.weight.add(
-            std::fabs(chosen.weight[0] / (double{seen.radiance[0]} * chosen.inverse_pdf) - 1));
+        draws.worst.add(flat, chosen);
     }
     std::vector<double> masses = cells.masses(flat);
     for (std::size_t cell = 0; cell < masses.size(); cell++)
@@ -196,42 +185,33 @@ Worst worst_radiance(const Case& c, const DeviceScene& flat, std::uint64_t count
     return worst;
 }
 
-Check named(std::string name, double value, double target, std::string unit,
-            std::uint64_t samples) {
-    Check check;
-    check.name = "daylight: " + std::move(name);
-    check.value = value, check.target = target;
-    check.unit = std::move(unit);
-    check.samples = samples;
-    return check;
-}
-
 } // namespace
 
 Checks row_daylight(StressRun& run) {
     std::uint64_t count = run.count(20'000, 1'000'000, 20'000'000);
+    const std::string row = "daylight";
     Checks checks;
     const std::vector<Case> all = cases();
     Random random(run.seed);
     for (const Case& c : all) {
-        DeviceScene flat = make_device_scene(scene_under(c));
+        DeviceScene flat = make_device_scene(scene_under(c.name, c.emitter));
         checks.push_back(
-            named("radiance of the sky, to it and a hundredth of the brightest: " + c.name,
-                  worst_radiance(c, flat, count, random).value(), 1e-4, "", count));
+            sky_check(row, "radiance of the sky, to it and a hundredth of the brightest: " + c.name,
+                      worst_radiance(c, flat, count, random).value(), 1e-4, "", count));
         Draws draws = draw(c, flat, count, random);
-        checks.push_back(named("density of a direction, and asked for again: " + c.name,
-                               draws.density.value(), 5e-3, "", count));
-        checks.push_back(named("weight: radiance over density: " + c.name, draws.weight.value(),
-                               5e-3, "", count));
-        checks.push_back(named("integral of the density, off 1: " + c.name,
-                               std::fabs(draws.whole - 1), 1e-4, "", count));
+        checks.push_back(sky_check(row, "density of a direction, and asked for again: " + c.name,
+                                   draws.worst.density.value(), 5e-3, "", count));
+        checks.push_back(sky_check(row, "weight: radiance over density: " + c.name,
+                                   draws.worst.weight.value(), 5e-3, "", count));
+        checks.push_back(sky_check(row, "integral of the density, off 1: " + c.name,
+                                   std::fabs(draws.whole - 1), 1e-4, "", count));
         checks.push_back(
-            named("light of all directions, standard errors off its integral: " + c.name,
-                  std::fabs(draws.mean / light_of(daylight_of(c.emitter)) - 1) /
-                      (draws.sigma / draws.mean + 1e-5),
-                  5, "", count));
-        Check drawn = named("chi-square over cells: " + c.name, draws.p,
-                            sidak_level(0.01, all.size()), "p", count);
+            sky_check(row, "light of all directions, standard errors off its integral: " + c.name,
+                      std::fabs(draws.mean / light_of(daylight_of(c.emitter)) - 1) /
+                          (draws.sigma / draws.mean + 1e-5),
+                      5, "", count));
+        Check drawn = sky_check(row, "chi-square over cells: " + c.name, draws.p,
+                                sidak_level(0.01, all.size()), "p", count);
         drawn.at_least = true;
         checks.push_back(drawn);
         run.done(double(checks.size()) / double(6 * all.size()));

@@ -1,6 +1,7 @@
 // Skies of images: what is seen of them against their definition in double, directions chosen by
 // them against integrals over their cells, densities against those stated.
 #include "host/catalogue/rows.h"
+#include "host/catalogue/sky_draws.h"
 
 #include "host/numerics/every_kind_scene.h"
 #include "host/numerics/sky_images.h"
@@ -11,15 +12,6 @@
 
 namespace parhelion::stress {
 namespace {
-
-Scene scene_under(const SkyImage& image) {
-    Scene scene;
-    scene.file = image.name;
-    scene.materials.push_back({"", {}, DiffuseBsdf{}});
-    scene.shapes.push_back(shape_of(quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}), 0, no_material));
-    scene.emitters.push_back(envmap_of(image));
-    return scene;
-}
 
 std::array<float, 3> single(f32::vec3 w) { return {w.x, w.y, w.z}; }
 
@@ -42,8 +34,8 @@ Worst worst_radiance(const SkyImage& image, const DeviceScene& flat, std::uint64
 }
 
 struct Draws {
-    double p = 1;                  ///< chi-square over the cells
-    Worst density, weight;         ///< relative
+    double p = 1; ///< chi-square over the cells
+    SkyWorst worst;
     double mean = 0, variance = 0; ///< of the weights
 };
 
@@ -73,10 +65,7 @@ Draws draw(const SkyImage& image, const DeviceScene& flat, std::uint64_t count, 
         if (std::min({s - std::floor(s), std::ceil(s) - s, t - std::floor(t), std::ceil(t) - t}) <
             1e-3)
             continue;
-        SkyRadiance seen = sky_seen(flat, chosen.wi);
-        draws.density.add(std::fabs(double{seen.pdf} * chosen.inverse_pdf - 1));
-        draws.weight.add(
-            std::fabs(chosen.weight[0] / (double{seen.radiance[0]} * chosen.inverse_pdf) - 1));
+        draws.worst.add(flat, chosen);
     }
     draws.p = chi_square_p(observed, expected);
     draws.mean = sum / double(count);
@@ -84,39 +73,32 @@ Draws draw(const SkyImage& image, const DeviceScene& flat, std::uint64_t count, 
     return draws;
 }
 
-Check named(std::string name, double value, double target, std::string unit,
-            std::uint64_t samples) {
-    Check check;
-    check.name = "skies: " + std::move(name);
-    check.value = value, check.target = target;
-    check.unit = std::move(unit);
-    check.samples = samples;
-    return check;
-}
-
 } // namespace
 
 Checks row_skies(StressRun& run) {
     std::uint64_t count = run.count(20'000, 1'000'000, 20'000'000);
+    const std::string row = "skies";
     Checks checks;
     std::vector<SkyImage> images = sky_images();
     Random random(run.seed);
     for (const SkyImage& image : images) {
-        DeviceScene flat = make_device_scene(scene_under(image));
-        checks.push_back(named("what is seen, to the largest texel and its slope: " + image.name,
-                               worst_radiance(image, flat, count, random).value(), 2e-7, "",
-                               count));
+        DeviceScene flat = make_device_scene(scene_under(image.name, envmap_of(image)));
+        checks.push_back(
+            sky_check(row, "what is seen, to the largest texel and its slope: " + image.name,
+                      worst_radiance(image, flat, count, random).value(), 2e-7, "", count));
         Draws draws = draw(image, flat, count, random);
-        checks.push_back(named("density of a direction, and asked for again: " + image.name,
-                               draws.density.value(), 5e-3, "", count));
-        checks.push_back(named("weight: radiance over density: " + image.name, draws.weight.value(),
-                               5e-3, "", count));
-        Check drawn = named("chi-square over cells: " + image.name, draws.p,
-                            sidak_level(0.01, images.size()), "p", count);
+        checks.push_back(sky_check(row,
+                                   "density of a direction, and asked for again: " + image.name,
+                                   draws.worst.density.value(), 5e-3, "", count));
+        checks.push_back(sky_check(row, "weight: radiance over density: " + image.name,
+                                   draws.worst.weight.value(), 5e-3, "", count));
+        Check drawn = sky_check(row, "chi-square over cells: " + image.name, draws.p,
+                                sidak_level(0.01, images.size()), "p", count);
         drawn.at_least = true;
         checks.push_back(drawn);
-        checks.push_back(named("variance of the weights to their mean squared: " + image.name,
-                               draws.variance / (draws.mean * draws.mean), 0.05, "", count));
+        checks.push_back(sky_check(row,
+                                   "variance of the weights to their mean squared: " + image.name,
+                                   draws.variance / (draws.mean * draws.mean), 0.05, "", count));
         run.done(double(checks.size()) / double(5 * images.size()));
     }
     return checks;
