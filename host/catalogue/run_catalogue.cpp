@@ -99,7 +99,7 @@ int run_catalogue(const StressCommand& c) {
     check_outputs(c);
     Progress progress = Progress::standard(c.quiet);
     RenderDevice& device = open_to_the_end(choose_device(c.device));
-    const KernelWay kernels{c.lanes > 0 ? c.lanes : device.device.lanes(), c.portable};
+    const KernelWay kernels{device.device.lanes(c.lanes), c.portable};
     StressRun run(device, kernels, effort, c.seed.value_or(1), progress);
     const char* name = effort == Effort::brief ? "brief" : c.full ? "full" : "quick";
     Report report{name, version_text(), run.seed, device.device, {}};

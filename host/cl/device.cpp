@@ -96,12 +96,16 @@ void add_platforms(DeviceList& list) {
 
 } // namespace
 
-int Device::lanes() const {
+int Device::lanes(int wanted) const {
+    if (wanted > 0) return wanted;
     if (!is_cpu) return 1;
     return float_width >= 16 ? 16 : 8;
 }
 
-int Device::tracing_lanes() const { return is_cpu && float_width >= 8 ? 16 : lanes(); }
+int Device::tracing_lanes(int wanted) const {
+    if (wanted > 0) return wanted;
+    return is_cpu && float_width >= 8 ? 16 : lanes();
+}
 
 DeviceList list_devices() {
     work_folder({ProgramCache::standard().folder()}); // before the driver asks for one

@@ -31,12 +31,13 @@ struct Device {
     /// The driver takes calls from the program's first thread alone.
     bool one_thread = false;
 
-    /// Values a lane-generic kernel handles at once here: 16 or 8 on CPUs, 1 elsewhere.
-    int lanes() const;
-    /// Rays that kernels which walk the tree take at once. On a CPU 16 also where a register holds
-    /// 8: what a packet costs by itself is shared by twice as many rays (measured on AVX2: 0.63 to
-    /// 0.9 of the time of 8, while shading takes up to 1.4 times as long by 16).
-    int tracing_lanes() const;
+    /// Values a lane-generic kernel handles at once here: 16 or 8 on CPUs, 1 elsewhere;
+    /// `wanted`, where that is not 0.
+    int lanes(int wanted = 0) const;
+    /// Likewise, rays that kernels which walk the tree take at once. On a CPU 16 also where a
+    /// register holds 8: what a packet costs by itself is shared by twice as many rays (measured on
+    /// AVX2: 0.63 to 0.9 of the time of 8, while shading takes up to 1.4 times as long by 16).
+    int tracing_lanes(int wanted = 0) const;
 };
 
 struct DeviceList {

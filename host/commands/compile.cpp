@@ -56,9 +56,8 @@ int run_compile(const CompileCommand& c) {
                          .work_group_size = c.image.options.split.work_group_size};
     progress.finish(fmt::format("{}", fmt::join(options.features.names(), " ")));
     RenderDevice& device = open_to_the_end(choose_device(c.image.device));
-    const int lanes = c.image.options.lanes;
-    options.lanes = lanes > 0 ? lanes : device.device.lanes();
-    options.tracing_lanes = lanes > 0 ? lanes : device.device.tracing_lanes();
+    options.lanes = device.device.lanes(c.image.options.lanes);
+    options.tracing_lanes = device.device.tracing_lanes(c.image.options.lanes);
     progress.start("compiling kernels");
     bool cached = true;
     std::vector<std::string> notes;

@@ -128,8 +128,8 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     AovPlan aovs = plan_aovs(scene);
     report.device = device.device.name;
     report.driver = device.device.driver_version;
-    report.lanes = options.lanes > 0 ? options.lanes : device.device.lanes();
-    report.tracing_lanes = options.lanes > 0 ? options.lanes : device.device.tracing_lanes();
+    report.lanes = device.device.lanes(options.lanes);
+    report.tracing_lanes = device.device.tracing_lanes(options.lanes);
     WorkSplit split = options.split;
     split.streams = options.checked ? 1 : stream_count(split, device.device);
     WorkSizes sizes =

@@ -38,8 +38,7 @@ constexpr Domain size = between(1e-100, 1e100);
 constexpr Domain field_of_view{
     .lowest = 1e-9, .highest = 180, .below_highest = true, .unit = "degrees"};
 /// A narrower one has no more directions in single precision.
-constexpr Domain disk_angle{
-    .lowest = 1e-9, .highest = 180, .below_highest = true, .unit = "degrees"};
+constexpr Domain disk_angle = field_of_view;
 constexpr Domain half_angle = strictly_between(0, 180).in("degrees");
 
 /// Single precision ends there; the parameter that a texture stands for has a domain of its own.
