@@ -58,9 +58,13 @@ CLI::Option* add_value(CLI::App& app, const Option& option, T& target) {
             // Without this a list would swallow the arguments behind it.
             added->allow_extra_args(false);
             if (option.rules.delimiter != 0) added->delimiter(option.rules.delimiter);
-        } else if constexpr (std::is_same_v<T, std::string>) {
-            if (!target.empty()) added->capture_default_str();
+        } else {
+            added->check([](const std::string& text) {
+                return text.empty() ? "nothing is given (accepted: a text that is not empty)" : "";
+            });
         }
+        if constexpr (std::is_same_v<T, std::string>)
+            if (!target.empty()) added->capture_default_str();
         return added;
     }
 }

@@ -3,9 +3,8 @@
 
 #include "host/error.h"
 #include "host/image/distinct_files.h"
-#include "host/image/exr.h"
 #include "host/image/output.h"
-#include "host/image/png.h"
+#include "host/image/write_image.h"
 
 #include <array>
 #include <cmath>
@@ -86,11 +85,8 @@ void write_pictures(const CompareOptions& options, const Image& image, const Ima
             pictures.emplace_back(file, kind.draw(image, reference, comparison));
     for (const auto& [file, drawn] : pictures) {
         // Values that are not finite are the same in both images, and the report counts them.
-        const Existing existing = existing_files(options.force);
-        if (image_format(file) == ImageFormat::png)
-            static_cast<void>(write_png(file, drawn, 0.0, existing));
-        else
-            static_cast<void>(write_exr(file, drawn, {.existing = existing}));
+        static_cast<void>(
+            write_image(file, drawn, {.exr = {.existing = existing_files(options.force)}}));
     }
 }
 

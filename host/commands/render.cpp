@@ -8,9 +8,8 @@
 #include "host/commands/misfit_warning.h"
 #include "host/error.h"
 #include "host/image/distinct_files.h"
-#include "host/image/exr.h"
 #include "host/image/output.h"
-#include "host/image/png.h"
+#include "host/image/write_image.h"
 #include "host/json_text.h"
 #include "host/progress.h"
 #include "host/render/host_render.h"
@@ -42,10 +41,9 @@ void add_metadata(const Scene& scene, const RenderReport& report, Image& image) 
 /// Returns what the file does not hold as it is.
 std::vector<Misfits> write_output(const RenderCommand& command, const Scene& scene,
                                   const Image& image) {
-    Existing existing = existing_files(command.force);
-    return image_format(command.output) == ImageFormat::png
-               ? write_png(command.output, image, command.exposure.value_or(0.0), existing)
-               : write_exr(command.output, image, {scene.film.component_format, existing});
+    return write_image(command.output, image,
+                       {command.exposure.value_or(0.0),
+                        {scene.film.component_format, existing_files(command.force)}});
 }
 
 std::vector<UsedFile> outputs_of(const RenderCommand& command) {

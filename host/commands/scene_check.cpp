@@ -1,6 +1,7 @@
 // What of a scene file can be rendered as it is written.
 #include "host/commands/scene_check.h"
 
+#include "host/flatten/device_scene.h"
 #include "host/safe_text.h"
 #include "host/scene/text.h"
 
@@ -27,14 +28,24 @@ struct Reading {
     std::vector<std::string> notes, problems;
 };
 
+std::vector<std::string> lines_of(const InputError& error) {
+    const std::string_view lines = error.what();
+    const auto problems = split(lines, "\n");
+    return {problems.begin(), problems.end()};
+}
+
+/// As far as the kernels' records: values of images and sizes are seen only there.
 Reading read(const std::string& file, const LoadOptions& options) {
+    Reading reading;
     try {
-        return {load_scene(file, options).notes, {}};
+        const Scene scene = load_scene(file, options);
+        reading.notes = scene.notes;
+        const DeviceScene flat = make_device_scene(scene);
+        reading.notes.insert(reading.notes.end(), flat.notes.begin(), flat.notes.end());
     } catch (const InputError& error) {
-        const std::string_view lines = error.what();
-        const auto problems = split(lines, "\n");
-        return {{}, {problems.begin(), problems.end()}};
+        reading.problems = lines_of(error);
     }
+    return reading;
 }
 
 /// Which construct a message that begins with a place is about.
@@ -55,17 +66,21 @@ public:
         return "";
     }
 
-    /// Of several in one line that which the message names, or the first.
+    /// Of several in one line that which the message names, or the last of a kind that it names, or
+    /// the first.
     std::optional<std::size_t> construct_of(const std::string& message) const {
         const auto found = at_.find(place_of(message));
         if (found == at_.end()) return std::nullopt;
+        const auto names = [&](const std::string& text) {
+            return message.find(text) != std::string::npos;
+        };
+        std::optional<std::size_t> of_kind;
         for (std::size_t i : found->second) {
             const Construct& c = constructs_[i];
-            if (message.find(fmt::format("{} plugin \"{}\"", c.kind, c.plugin)) !=
-                std::string::npos)
-                return i;
+            if (names(fmt::format("{} plugin \"{}\"", c.kind, c.plugin))) return i;
+            if (names(c.kind)) of_kind = i;
         }
-        return found->second.front();
+        return of_kind.value_or(found->second.front());
     }
 
 private:
@@ -103,10 +118,27 @@ std::map<std::string, std::string> by_place(const Places& places,
     return texts;
 }
 
+/// Of what is no scene file.
+nlohmann::json nothing_known(const std::string& file, const std::vector<std::string>& problems) {
+    nlohmann::json messages = nlohmann::json::array();
+    for (const std::string& problem : problems)
+        messages.push_back({{"status", status_names[refused]}, {"text", problem}});
+    return {{"scene", file},
+            {"verdict", status_names[refused]},
+            {"constructs", nlohmann::json::array()},
+            {"messages", messages},
+            {"opens_leniently", false}};
+}
+
 } // namespace
 
 nlohmann::json check_scene(const std::string& file, const LoadOptions& options) {
-    const std::vector<Construct> constructs = scene_constructs(file, options);
+    std::vector<Construct> constructs;
+    try {
+        constructs = scene_constructs(file, options);
+    } catch (const InputError& error) {
+        return nothing_known(file, lines_of(error));
+    }
     const Places places(constructs);
     const Reading strict = read(file, options);
     LoadOptions leniently = options;

@@ -11,8 +11,8 @@ namespace parhelion {
 
 /// Reads the scene as `options` say and, where that is refused, leniently too. {scene, verdict,
 /// constructs: [{kind, plugin, exact, approximated, refused}], messages: [{status, construct, text,
-/// leniently}]}; the verdict is that of the worst message: "exact" without any. Throws InputError
-/// where the file is no scene file.
+/// leniently}]}; the verdict is that of the worst message: "exact" without any. What is no scene
+/// file is refused, without constructs.
 nlohmann::json check_scene(const std::string& file, const LoadOptions& options);
 
 /// The same for people, a line each.

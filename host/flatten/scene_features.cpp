@@ -6,6 +6,7 @@
 #include "host/flatten/energy_table.h"
 #include "host/flatten/feature_counts.h"
 #include "host/flatten/filter_table.h"
+#include "host/flatten/kind_names.h"
 #include "host/flatten/lobe_lists.h"
 #include "host/flatten/material_records.h"
 #include "host/flatten/principled_features.h"
@@ -26,8 +27,6 @@ namespace {
 // By kind.
 constexpr std::array material_features{MATERIALS(FEATURE_MATERIAL)};
 constexpr std::array emitter_features{EMITTERS(FEATURE_EMITTER)};
-#define MEETABLE(name, met) met,
-constexpr std::array meetable{EMITTERS(MEETABLE)};
 constexpr std::array geometry_features{GEOMETRIES(FEATURE_GEOMETRY)};
 
 // Measured: packets win while the tree (50 bytes a primitive) stays near the caches' size.
@@ -170,8 +169,10 @@ Transport transport(const Integrator& integrator, const DeviceScene& records) {
     }
     t.lit = !records.lights.empty();
     int longest = longest_path(integrator);
-    auto met = std::count_if(records.lights.begin(), records.lights.end(),
-                             [](const LightRecord& light) { return meetable[light.kind] != 0; });
+    auto met =
+        std::count_if(records.lights.begin(), records.lights.end(), [](const LightRecord& light) {
+            return emitter_places[light.kind] != nowhere;
+        });
     bool seen = met > 0;
     t.emission = seen && longest != 0;
     t.several = longest >= 2;
@@ -305,10 +306,10 @@ void decide_energy_compensation(const Scene& scene, DeviceScene& records) {
 bool traced_in_streams(std::size_t primitives) { return primitives > primitives_for_packets; }
 
 FeatureSet neutral_features() {
-    // Not anisotropy (turns the frame), what decides which light is counted, views and film
-    // layouts; normals, texture coordinates and the sky's light row exist only where they are
-    // needed.
-    FeatureSet neutral{feature_back_materials, feature_ggx, feature_beckmann, feature_ray_streams};
+    // Not anisotropy (turns the frame), materials of backs (a blend has lobes of its own there),
+    // what decides which light is counted, views and film layouts; normals, texture coordinates and
+    // the sky's light row exist only where they are needed.
+    FeatureSet neutral{feature_ggx, feature_beckmann, feature_ray_streams};
     for (Feature f : {MATERIALS(FEATURE_MATERIAL) GEOMETRIES(FEATURE_GEOMETRY)})
         neutral.set(f);
     for (Feature f : {EMITTERS_BY_ROW(FEATURE_EMITTER)})

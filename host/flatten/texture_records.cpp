@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -76,8 +77,11 @@ void check_values(const TextureRows& rows, const std::vector<ValueBounds>& bound
     for (const auto& [row, use] : rows.uses()) {
         const auto [lowest, highest] = bounds[row];
         if (placed(use.domain, lowest) && placed(use.domain, highest)) continue;
-        throw InputError(fmt::format("{}: {} gets values from {} to {} of {} (accepted: {})",
-                                     use.location.to_string(), use.parameter, lowest, highest,
+        const std::string found = std::isfinite(lowest)
+                                      ? fmt::format("values from {} to {}", lowest, highest)
+                                      : fmt::format("a value that is not finite ({})", lowest);
+        throw InputError(fmt::format("{}: {} gets {} of {} (accepted: {})",
+                                     use.location.to_string(), use.parameter, found,
                                      name_of(*use.texture), accepted_text(use.domain)));
     }
 }

@@ -31,4 +31,17 @@ std::string lower_case(std::string_view text);
 /// Throws InputError "<place>: <message>".
 [[noreturn]] void refuse(const SourceLocation& place, const std::string& message);
 
+/// f(), which reads a file that is named at `place`: what is wrong in a file does not say who names
+/// it. Throws f's InputErrors with the place before them, but those that begin with it.
+template<class F>
+auto named_at(const SourceLocation& place, const F& f) -> decltype(f()) {
+    try {
+        return f();
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        if (what.starts_with(place.to_string())) throw;
+        refuse(place, what);
+    }
+}
+
 } // namespace parhelion

@@ -99,7 +99,7 @@ FN vec3 seen_light(ShadeWork w, PathVertex v) {
     if (HAS(view_normals) || HAS(view_depth)) seen = view_of(w, v);
     if (!HAS(emission)) return seen;
     seen = add3(seen, surface_emission(w, v));
-    if (HAS(emitter_constant) || HAS(emitter_envmap) || HAS(emitter_sunsky)) {
+    if (HAS_SKY) {
         Mask sky = v.active & !v.hit, hidden = sky_hidden(w, v);
         if (someLane(sky)) seen = sel3(sky, sky_emission(w, v.path, sky, hidden), seen);
     }

@@ -13,14 +13,16 @@
 // What a parameter of a material can be in place of a constant: name in files, the host's struct (<Name>Texture).
 #define TEXTURES(X) X(bitmap, Bitmap) X(checkerboard, Checkerboard) X(mesh_attribute, MeshAttribute)
 
-// Rows of the light table: name, whether a ray can meet it. An area emitter has one row for each of its primitives.
-#define EMITTERS(X) EMITTERS_BY_ROW(X) X(envmap, 1) X(sunsky, 1)
+// Rows of the light table: name, where a ray meets it (enum EmitterPlace). An area emitter has one row for each of its
+// primitives.
+#define EMITTERS(X) EMITTERS_BY_ROW(X) X(envmap, all_around) X(sunsky, all_around)
 // Those of which their row tells all; an envmap has an image and a table (device/environment.h), a sunsky words and a table
 // (device/daylight.h).
 #define EMITTERS_BY_ROW(X)                                                                         \
-    X(area_triangle, 1) X(area_parallelogram, 1) X(area_sphere, 1) X(area_disk, 1) X(point, 0)       \
-    X(spot, 0) X(directional, 0) X(constant, 1) X(area_tiny_triangle, 1) X(area_cylinder, 1)       \
-    X(projector, 0)
+    X(area_triangle, on_shapes) X(area_parallelogram, on_shapes) X(area_sphere, on_shapes)         \
+    X(area_disk, on_shapes) X(point, nowhere) X(spot, nowhere) X(directional, nowhere)             \
+    X(constant, all_around) X(area_tiny_triangle, on_shapes) X(area_cylinder, on_shapes)           \
+    X(projector, nowhere)
 
 // First-hit values beside the radiance: name, number of channels, suffixes of the channel names. A channel without suffix is
 // for the host: of a position, 1, to know how much of a pixel has one.
@@ -88,6 +90,7 @@ enum Feature {
 
 #define KIND_EMITTER(name, ...) emitter_##name,
 enum EmitterKind { EMITTERS(KIND_EMITTER) emitter_kind_count };
+enum EmitterPlace { nowhere, on_shapes, all_around };
 #define KIND_GEOMETRY(name) geometry_##name,
 enum GeometryKind { GEOMETRIES(KIND_GEOMETRY) geometry_kind_count };
 #define KIND_TEXTURE(name, Name) texture_##name,
@@ -106,5 +109,9 @@ enum FilmAovKind { FILM_AOVS(KIND_FILM_AOV) film_aov_kind_count };
 static_assert(feature_count <= 64 * FEATURE_WORDS);
 #define HAS(x) (FEATURES.has(feature_##x)) // a FeatureSet (host/feature_set.h)
 #endif
+
+// Some light comes from wherever nothing is.
+#define OR_SKY(name, place) || (place == all_around && HAS(emitter_##name))
+#define HAS_SKY (0 EMITTERS(OR_SKY))
 
 #endif

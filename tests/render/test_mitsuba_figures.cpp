@@ -11,11 +11,7 @@ namespace {
 constexpr double family_level = 0.01;
 
 Effort effort() {
-    return {32, 32, [](const Scene& scene) {
-                RenderOptions options;
-                options.all_features = true; // the same programs for many cases
-                return test::render_quietly(scene, options);
-            }};
+    return {32, 32, [](const Scene& scene) { return test::render_quietly(scene); }};
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "tests/unit/test_scene_tools.h"
 
 #include <catch2/catch.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 #include <map>
@@ -292,4 +293,21 @@ TEST_CASE("Blends: direct light is the weighted sum of both, of every pair of ki
                 bright += first > 0 && second > 0;
             }
     CHECK(bright > 8); // those without a lobe of one direction alone
+}
+
+TEST_CASE("Blends: seen from inside, matte and glass are the same with all of the kernels",
+          "[blends]") {
+    const std::string glass = "<bsdf type=\"roughdielectric\"/>";
+    Scene scene = load_body("<emitter type=\"constant\"/><shape type=\"sphere\">" +
+                            blend(number("weight", "0.5"), red + glass) + "</shape>");
+    scene.film.width = scene.film.crop_width = scene.film.height = scene.film.crop_height = 16;
+    scene.sampler.samples_per_pixel = 16;
+    scene.camera.to_world = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, -4));
+    RenderOptions all;
+    all.all_features = true;
+    const Image own = host_render(scene, Precision::single_precision).image;
+    const Image of_all = host_render(scene, Precision::single_precision, all).image;
+    for (std::size_t c = 0; c < own.channels.size(); c++)
+        CHECK(own.channels[c].values == of_all.channels[c].values);
+    CHECK(mean(own, "R") > mean(own, "G"));
 }

@@ -2,6 +2,7 @@
 // against closed forms.
 #include <catch2/catch.hpp>
 
+#include "host/flatten/kind_names.h"
 #include "host/numerics/materials.h"
 #include "host/numerics/statistics.h"
 
@@ -190,10 +191,7 @@ typename P::Vec3 receiver(const LightCase& c) {
 
 bool seen(const f32::EmitterSample& s) { return s.inverse_pdf > 0; }
 
-#define MEETABLE(name, met) met,
-bool is_delta(const LightCase& c) {
-    return !std::array{EMITTERS(MEETABLE)}.at(std::size_t(c.kind));
-}
+bool is_delta(const LightCase& c) { return emitter_places.at(std::size_t(c.kind)) == nowhere; }
 
 /// A grid over the cone about the emitter that holds all samples: cosine against the axis, and
 /// azimuth.

@@ -81,7 +81,7 @@ SurfaceMaterials blended(Reading& r, const Textured<double>& weight, const Surfa
 /// 3.
 Textured<double> read_share(Properties& p, std::string_view name) {
     if (p.has_texture(name)) return p.textured_number(name, 0.5);
-    const Rgb share = p.color(name, Rgb(0.5), SpectrumUse::reflectance);
+    const Rgb share = p.color(name, Rgb(0.5), SpectrumUse::reflectance, color_or_texture);
     return (share.r + share.g + share.b) / 3.0;
 }
 

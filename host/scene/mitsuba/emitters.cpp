@@ -14,7 +14,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace parhelion::mitsuba {
@@ -140,16 +142,28 @@ Emitter read_constant(Properties& p) {
     return ConstantEmitter{read_emission(p, "radiance")};
 }
 
-/// Its texels stand at rows from pole to pole.
-constexpr int least_rows = 2;
+/// Mitsuba's least for a sky.
+constexpr int least_rows = 3;
+
+/// With its last row as often as is missing: what Mitsuba makes of so few.
+TexelSource with_least_rows(TexelSource image) {
+    const TexelLayout layout = image.layout;
+    if (layout.height >= least_rows) return image;
+    image.layout.height = least_rows;
+    image.name += " (its last row repeated)";
+    image.read = [layout, read = std::move(image.read)](std::span<std::byte> to) {
+        read(to.first(layout.bytes()));
+        const std::size_t row = layout.bytes() / static_cast<std::size_t>(layout.height);
+        for (std::size_t end = layout.bytes(); end < to.size(); end += row)
+            std::copy_n(&to[end - row], row, &to[end]);
+    };
+    return image;
+}
 
 Emitter read_envmap(Properties& p) {
     EnvmapEmitter e;
     BitmapTexture bitmap;
-    bitmap.source = read_image(p, "filename");
-    const int rows = bitmap.source.layout.height;
-    if (rows < least_rows)
-        p.refuse_value("filename", fmt::format("an image of {} row", rows), "2 rows or more");
+    bitmap.source = with_least_rows(read_image(p, "filename"));
     const SourceLocation place = p.location_of("filename");
     e.image = {std::make_shared<const Texture>(Texture{p.object().id, glm::dmat3(1.0), bitmap}),
                place, p.title() + ": its image",

@@ -145,13 +145,13 @@ bool Properties::check_each(std::string_view name, std::vector<double>& values) 
     return true;
 }
 
-double Properties::number(std::string_view name, double missing) {
+double Properties::number(std::string_view name, double missing, std::string_view accepted) {
     const Parameter* const parameter = take(name);
     if (!parameter) return missing;
     if (const auto* real = std::get_if<double>(&parameter->value)) return checked(name, *real);
     if (const auto* whole = std::get_if<std::int64_t>(&parameter->value))
         return checked(name, static_cast<double>(*whole));
-    keep(name, "given as <" + parameter->tag + ">", "<float>");
+    keep(name, "given as <" + parameter->tag + ">", std::string(accepted));
     return missing;
 }
 
@@ -223,7 +223,8 @@ glm::dmat4 Properties::transform(std::string_view name) {
     return value ? *value : glm::dmat4(1.0);
 }
 
-Rgb Properties::color(std::string_view name, const Rgb& missing, SpectrumUse use) {
+Rgb Properties::color(std::string_view name, const Rgb& missing, SpectrumUse use,
+                      std::string_view accepted) {
     const Parameter* const parameter = take(name);
     if (!parameter) return missing;
     if (const auto* rgb = std::get_if<RgbValue>(&parameter->value))
@@ -241,7 +242,7 @@ Rgb Properties::color(std::string_view name, const Rgb& missing, SpectrumUse use
     }
     if (!std::holds_alternative<double>(parameter->value) &&
         !std::holds_alternative<std::int64_t>(parameter->value)) {
-        keep(name, "given as <" + parameter->tag + ">", "<rgb>, <spectrum>, <float>");
+        keep(name, "given as <" + parameter->tag + ">", std::string(accepted));
         return missing;
     }
     return Rgb(number(name, 0.0));

@@ -12,6 +12,9 @@
 
 namespace parhelion::mitsuba {
 
+/// What a colour that may be a texture can be given as, for messages.
+inline constexpr std::string_view color_or_texture = "<rgb>, <spectrum>, <float>, <texture>";
+
 /// Every query takes its parameter; `finish` refuses those that are left. What is wrong with a
 /// value is kept, so that the others are looked at too, and thrown by `finish` or what throws
 /// before: an InputError, a line for each, with the parameter's own line and spelling. Numbers lie
@@ -31,7 +34,7 @@ public:
     /// The line of a parameter that is there, else of the plugin.
     const SourceLocation& location_of(std::string_view name) const;
 
-    double number(std::string_view name, double missing);
+    double number(std::string_view name, double missing, std::string_view accepted = "<float>");
     double required_number(std::string_view name);
     std::int64_t integer(std::string_view name, std::int64_t missing);
     /// A number found in a text.
@@ -46,7 +49,8 @@ public:
     /// A vector, or a number three times; refuses to be without.
     glm::dvec3 required_numbers(std::string_view name);
     glm::dmat4 transform(std::string_view name);
-    Rgb color(std::string_view name, const Rgb& missing, SpectrumUse use);
+    Rgb color(std::string_view name, const Rgb& missing, SpectrumUse use,
+              std::string_view accepted = "<rgb>, <spectrum>, <float>");
     /// A colour, or the texture of that name.
     Textured<Rgb> textured_color(std::string_view name, const Textured<Rgb>& missing,
                                  SpectrumUse use);

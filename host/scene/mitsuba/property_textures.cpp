@@ -46,7 +46,7 @@ TextureUse Properties::texture_use(std::string_view name, const Object& texture)
 Textured<Rgb> Properties::textured_color(std::string_view name, const Textured<Rgb>& missing,
                                          SpectrumUse use) {
     const Object* const texture = take_texture(name);
-    if (!texture) return color(name, missing.constant, use);
+    if (!texture) return color(name, missing.constant, use, color_or_texture);
     if (const auto same = read_constant_texture(document_, *texture, notes_))
         return Rgb(checked(name, same->r), checked(name, same->g), checked(name, same->b));
     return Textured<Rgb>(texture_use(name, *texture));
@@ -55,7 +55,7 @@ Textured<Rgb> Properties::textured_color(std::string_view name, const Textured<R
 Textured<double> Properties::textured_number(std::string_view name,
                                              const Textured<double>& missing) {
     const Object* const texture = take_texture(name);
-    if (!texture) return number(name, missing.constant);
+    if (!texture) return number(name, missing.constant, "<float>, <texture>");
     if (const auto same = read_constant_texture(document_, *texture, notes_))
         return checked(name, luminance(*same));
     return Textured<double>(texture_use(name, *texture));

@@ -149,13 +149,20 @@ void SceneBuilder::set_sensor(const std::string& file) {
 
 /// What another sensor has wrong changes nothing in this picture.
 void SceneBuilder::note_fault_of(const Object& sensor) {
-    std::vector<std::string> unused;
+    const auto note = [&](std::string_view line) {
+        scene_.notes.push_back(std::string(line) + ": it is not the chosen sensor");
+    };
+    std::vector<std::string> of_other;
     try {
-        static_cast<void>(read_sensor(document_, sensor, unused));
+        static_cast<void>(read_sensor(document_, sensor, of_other));
     } catch (const InputError& error) {
         for (const std::string_view line : split(error.what(), "\n"))
-            scene_.notes.push_back(std::string(line) + ": it is not the chosen sensor");
+            note(line);
+        return;
     }
+    if (document_.lenient)
+        for (const std::string& line : of_other)
+            note(line);
 }
 
 void SceneBuilder::set_integrator(const Child& child) {

@@ -7,6 +7,7 @@
 #include "host/scene/mitsuba/plugin_table.h"
 #include "host/scene/mitsuba/plugins.h"
 #include "host/scene/mitsuba/properties.h"
+#include "host/scene/text.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -43,30 +44,41 @@ Geometry read_mesh(const ShapeInput& in, MeshData data, const MeshOptions& optio
     return make_mesh(std::move(data), options, in.p.location(), in.notes);
 }
 
-std::filesystem::path read_filename(const ShapeInput& in) {
+/// load(path, place) of the file that the shape names.
+template<class Load>
+auto load_file(const ShapeInput& in, const Load& load) {
     const std::string name = in.p.required_text("filename");
     in.p.check();
-    return in.document.files.file(name, in.p.location_of("filename"));
+    const SourceLocation place = in.p.location_of("filename");
+    return named_at(place, [&] { return load(in.document.files.file(name, place), place); });
 }
 
 Geometry read_obj(const ShapeInput& in) {
     const bool flip_v = in.p.boolean("flip_tex_coords", true);
     const MeshOptions options = read_mesh_options(in.p);
-    return read_mesh(in, load_obj(read_filename(in), flip_v, in.p.location_of("filename")),
-                     options);
+    return read_mesh(
+        in,
+        load_file(in, [&](const auto& path,
+                          const SourceLocation& place) { return load_obj(path, flip_v, place); }),
+        options);
 }
 
 Geometry read_ply(const ShapeInput& in) {
     const bool flip_v = in.p.boolean("flip_tex_coords", false);
     const MeshOptions options = read_mesh_options(in.p);
-    return read_mesh(in, load_ply(read_filename(in), flip_v, in.p.location_of("filename")),
-                     options);
+    return read_mesh(
+        in,
+        load_file(in, [&](const auto& path,
+                          const SourceLocation& place) { return load_ply(path, flip_v, place); }),
+        options);
 }
 
 Geometry read_serialized(const ShapeInput& in) {
     const std::int64_t index = in.p.integer("shape_index", 0);
     MeshOptions options = read_mesh_options(in.p);
-    SerializedMesh file = load_serialized(read_filename(in), index, in.p.location_of("filename"));
+    SerializedMesh file = load_file(in, [&](const auto& path, const SourceLocation& place) {
+        return load_serialized(path, index, place);
+    });
     options.face_normals |= file.face_normals;
     return read_mesh(in, std::move(file.mesh), options);
 }

@@ -67,14 +67,12 @@ constexpr PluginTable<TextureReader, texture_kind_count + 1> texture_plugins = {
 TexelSource read_image(Properties& p, std::string_view name) {
     const std::string file = p.required_text(name);
     const SourceLocation place = p.location_of(name);
-    try {
-        return open_texels(p.files().file(file, place).string());
-    } catch (const InputError& error) {
-        // What is wrong with the file itself does not say where the scene names it.
-        const std::string what = error.what();
-        if (what.starts_with(place.to_string())) throw;
-        refuse(place, what);
-    }
+    TexelSource image =
+        named_at(place, [&] { return open_texels(p.files().file(file, place).string()); });
+    image.read = [place, read = std::move(image.read)](std::span<std::byte> to) {
+        named_at(place, [&] { read(to); });
+    };
+    return image;
 }
 
 bool is_known_texture(const Object& object) { return has_plugin(texture_plugins, object.plugin); }
