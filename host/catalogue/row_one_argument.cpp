@@ -88,6 +88,18 @@ constexpr Accuracy accuracy_of_log_unit{"relative", 3e-7, [](std::uint32_t bits,
                                             return relative_error(y,
                                                                   std::log(double(argument(bits))));
                                         }};
+constexpr Accuracy accuracy_of_log_one_minus{
+    "relative", 3e-7, [](std::uint32_t bits, float y) {
+        double x = argument(bits);
+        return relative_error(y, x < 0x1p-12 ? -x * (1 + x * (1. / 2 + x * (1. / 3 + x / 4)))
+                                             : std::log1p(-x));
+    }};
+constexpr Accuracy accuracy_of_one_minus_exp{
+    "relative", 2e-7, [](std::uint32_t bits, float y) {
+        double x = argument(bits);
+        return relative_error(y, x > -0x1p-12 ? -x * (1 + x * (1. / 2 + x * (1. / 6 + x / 24)))
+                                              : -std::expm1(x));
+    }};
 constexpr Accuracy accuracy_of_scaled_erfc{"relative", 6e-7, [](std::uint32_t bits, float y) {
                                                return relative_error(
                                                    y, scaled_complement(argument(bits)));

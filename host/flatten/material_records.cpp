@@ -64,6 +64,12 @@ void set_roughness(MaterialRecord& m, const parameter::EvenRoughness::Value& r) 
     set_roughness(m, parameter::Roughness::Value{r.distribution, r.alpha, r.alpha});
 }
 
+void set_ward(MaterialRecord& m, const parameter::WardRoughness::Value& r) {
+    WARD_VARIANT(m) = static_cast<float>(r.variant);
+    m.alpha_u = static_cast<float>(or_one(r.alpha_u));
+    m.alpha_v = static_cast<float>(or_one(r.alpha_v));
+}
+
 #define SET_TEXTURED_WORD(name)                                                                    \
     void set_##name(MaterialRecord& m, const Textured<double>& value) {                            \
         m.name = static_cast<float>(or_one(value));                                                \
@@ -109,6 +115,16 @@ void derive(MaterialRecord& m, const RoughPlasticBsdf& b) {
 /// Opaque ones say so.
 void derive(MaterialRecord& m, const PrincipledBsdf& b) { m.distribution = is_opaque(b) ? 1 : 0; }
 
+/// What Mitsuba 0.6 makes of reflectances that are more than 1 together; where a texture tells of
+/// one, that is known later.
+template<class Kind>
+requires requires(const Kind& b) { b.ensure_energy_conservation; }
+void derive(MaterialRecord& m, const Kind& b) {
+    if (b.diffuse_reflectance.texture || b.specular_reflectance.texture) return;
+    scale_reflectances(
+        m, kept_share(b, b.diffuse_reflectance.constant, b.specular_reflectance.constant));
+}
+
 // Textures of parameters, by the same word.
 
 using Rows = MaterialTexturesRecord;
@@ -125,6 +141,10 @@ void texture_conductor(Rows& t, const parameter::ComplexIndex::Value& index,
     t.k = row(index.k.texture);
 }
 void texture_roughness(Rows& t, const parameter::Roughness::Value& r, const TextureRow& row) {
+    t.alpha_u = row(r.alpha_u.texture);
+    t.alpha_v = row(r.alpha_v.texture);
+}
+void texture_ward(Rows& t, const parameter::WardRoughness::Value& r, const TextureRow& row) {
     t.alpha_u = row(r.alpha_u.texture);
     t.alpha_v = row(r.alpha_v.texture);
 }
@@ -185,6 +205,11 @@ MATERIALS(NUMBER_ROWS_OF_BSDF)
 MATERIALS(PACK_BSDF)
 
 } // namespace
+
+void scale_reflectances(MaterialRecord& m, double share) {
+    for (float* word : {&m.r, &m.g, &m.b, &m.tr, &m.tg, &m.tb})
+        *word = static_cast<float>(*word * share);
+}
 
 double inner_reflectance(double eta) {
     static const GaussLegendre<32> rule;

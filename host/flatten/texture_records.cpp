@@ -4,6 +4,7 @@
 #include "host/flatten/attribute_texels.h"
 #include "host/flatten/daylight.h"
 #include "host/flatten/environment_shares.h"
+#include "host/flatten/limited_reflectances.h"
 #include "host/flatten/material_records.h"
 #include "host/flatten/texture_bounds.h"
 #include "host/flatten/texture_images.h"
@@ -194,6 +195,7 @@ void add_textures(const Scene& scene, DeviceScene& out) {
     add_attributes(scene, rows, out, bounds);
     add_number_rows(scene, named.of_numbers, out);
     check_values(rows, bounds);
+    limit_reflectances(scene, rows, images, bounds, out);
     add_means(scene, rows, images, out);
     if (bytes) out.byte_values = make_byte_values();
     add_environment(scene, named.of_sky, out);

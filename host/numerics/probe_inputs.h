@@ -144,6 +144,10 @@ private:
         }
         values("aa");
         if (one_in(2)) words_.back() = words_[words_.size() - 2];
+        std::size_t alpha_u = words_.size() - 2, variant = words_.size() - 5;
+        if (kind == material_phong)
+            words_[alpha_u] = static_cast<float>(one_in(8) ? 0 : random_.log_between(1e-2, 1e8));
+        if (kind == material_ward) words_[variant] = static_cast<float>(pick({0, 1, 2}));
         put_int(random_.bits() & 1);
     }
 

@@ -25,6 +25,11 @@ void visit_textures(const parameter::Roughness::Value& roughness, const Visit& v
     visit_textures(roughness.alpha_u, visit);
     visit_textures(roughness.alpha_v, visit);
 }
+template<class Visit>
+void visit_textures(const parameter::WardRoughness::Value& roughness, const Visit& visit) {
+    visit_textures(roughness.alpha_u, visit);
+    visit_textures(roughness.alpha_v, visit);
+}
 
 #define VISIT_TEXTURES(Kind, name, ...) visit_textures(b.name, visit);
 #define VISIT_TEXTURES_OF(name, Name, ...)                                                         \

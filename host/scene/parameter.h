@@ -7,6 +7,7 @@
 namespace parhelion {
 
 enum class MicrofacetDistribution { ggx, beckmann };
+enum class WardVariant { balanced, ward, ward_duer };
 
 namespace parameter {
 
@@ -65,6 +66,14 @@ struct EvenRoughness {
     struct Value {
         MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
         double alpha = 0.1;
+    };
+};
+
+/// Of Ward's normals: `variant`, `alpha` or `alpha_u` and `alpha_v`.
+struct WardRoughness {
+    struct Value {
+        WardVariant variant = WardVariant::balanced;
+        Textured<double> alpha_u = 0.1, alpha_v = 0.1;
     };
 };
 

@@ -52,8 +52,8 @@ FN Material resolve_textures(SceneTables scene, Int row, TexturePlace place, Mas
         }
     }
     if (HAS(textured_transmittance)) {
-        vec3 c = textured_color(scene, t.transmittance, place, hit, material_transmittance(m));
-        m.tr = c.x, m.tg = c.y, m.tb = c.z;
+        vec3 c = textured_color(scene, t.transmittance, place, hit, splat3(R(1.)));
+        m.tr = m.tr * c.x, m.tg = m.tg * c.y, m.tb = m.tb * c.z;
     }
     if (HAS(textured_index)) {
         vec3 eta = textured_color(scene, t.eta, place, hit, material_eta(m));

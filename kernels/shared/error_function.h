@@ -5,6 +5,7 @@
 
 #ifdef PARHELION_REAL_IS_DOUBLE
 FN Real log_unit(Real x) { return std::log(x); }
+FN Real log_one_minus(Real x) { return std::log1p(-x); }
 /// erfc(y) exp(y^2), y >= 0.
 FN Real scaled_erfc(Real y) {
     // Beyond 25 erfc is soon denormal: five terms of its asymptotic series (Abramowitz and Stegun
@@ -32,6 +33,14 @@ FN Real log_unit(Real x) {
     Real e = toReal(exponent);
     Real small = p * m * z + e * R(-2.12194440e-4) - .5f * z;
     return m + small + e * R(0.693359375);
+}
+
+/// log(1 - x), x in [0, 1), relative error below 3e-7: what rounding 1 - x does to it by the slope
+/// there (Kahan's way).
+FN Real log_one_minus(Real x) {
+    Real rest = R(1.) - x, taken = R(1.) - rest;
+    Mask some = taken > R(0.);
+    return sel(some, log_unit(rest) * (x / sel(some, taken, R(1.))), -x);
 }
 
 /// erfc(y) exp(y^2), y >= 0, relative error below 5e-7: a polynomial in 1 / (1 + 0.4 y), minimax.

@@ -26,7 +26,9 @@
     X(plastic, Plastic, opaque)                                                                    \
     X(roughplastic, RoughPlastic, opaque)                                                          \
     X(principled, Principled, transparent)                                                         \
-    X(principledthin, PrincipledThin, transparent)
+    X(principledthin, PrincipledThin, transparent)                                                 \
+    X(phong, Phong, opaque)                                                                        \
+    X(ward, Ward, opaque)
 
 // Parameters: what it is (host/scene/parameter.h), name, value of one that is missing, where its numbers may lie
 // (a domain of host/scene/mitsuba/number_parameters.cpp, or one in brackets), what it becomes in a MaterialRecord: one of
@@ -106,6 +108,19 @@
     X(TexturedNumber, sheen_tint, 0.0, share, eb)                                                  \
     X(TexturedNumber, flatness, 0.0, share, kr)                                                    \
     X(TexturedNumber, diff_trans, 0.0, (between(0, 2)), kg)
+
+// Of Mitsuba 0.x. `ensure_energy_conservation`: reflectances of more than 1 together are scaled down.
+#define PARAMETERS_phong(X)                                                                        \
+    X(TexturedNumber, exponent, 30.0, (between(0, 1e18)), alpha_u)                                 \
+    X(Color, diffuse_reflectance, 0.5, (between(0, 1e6).zero_below(least_normal)), reflectance)    \
+    X(Color, specular_reflectance, 0.2, (between(0, 1e6).zero_below(least_normal)), transmittance) \
+    X(Flag, ensure_energy_conservation, true, , nothing)
+
+#define PARAMETERS_ward(X)                                                                         \
+    X(WardRoughness, roughness, , metal_roughness, ward)                                           \
+    X(Color, diffuse_reflectance, 0.5, (between(0, 1e6).zero_below(least_normal)), reflectance)    \
+    X(Color, specular_reflectance, 0.2, (between(0, 1e6).zero_below(least_normal)), transmittance) \
+    X(Flag, ensure_energy_conservation, true, , nothing)
 // clang-format on
 
 #define KIND_MATERIAL(name, ...) material_##name,
@@ -135,6 +150,9 @@ enum MaterialKind { MATERIALS(KIND_MATERIAL) material_kind_count };
 #define CLEARCOAT(m) ((m).kg)
 #define DIFF_TRANS(m) ((m).kg)
 #define CLEARCOAT_GLOSS(m) ((m).kb)
+
+// Of Ward's the variant: balanced 0, as published 1, Duer's 2.
+#define WARD_VARIANT(m) ((m).kr)
 
 // Textures of the numbers from tr to kb (er: eta) have a table: in place of a transmittance's row
 // stands the code of the word of `texels` from which on each of them has a row, or -1.

@@ -73,6 +73,7 @@ FN SinCos sincos_turns(Real u) {
     return r;
 }
 FN Real exp_negative(Real x) { return std::exp(x); }
+FN Real one_minus_exp(Real x) { return -std::expm1(x); }
 FN Real atan2R(Real y, Real x) { return std::atan2(y, x); }
 #else
 /// sin and cos of 2 pi u, u in [0, 1]; absolute error below 1.2e-7. Minimax polynomials on [-pi/4,
@@ -94,20 +95,40 @@ FN SinCos sincos_turns(Real u) {
     return r;
 }
 
-/// exp(x) for x <= 0, relative error below 2e-7; 0 where the result would be denormal (x < -87.3).
-FN Real exp_negative(Real x) {
-    Real in_range = maxR(x, R(-88.)); // of no number too; it is given back below
-    Int n = toInt(in_range * R(1.44269504088896341) - .5f);
-    Real t = toReal(n);
-    Real r = (in_range - t * R(0.693359375)) - t * R(-2.12194440e-4);
+/// exp(x) = (1 + beyond_one) 2^exponent, to 2e-7 of it, x from -88 to 0.
+typedef struct {
+    Real beyond_one;
+    Int exponent;
+} Exponential;
+
+FN Exponential exponential(Real x) {
+    Exponential e;
+    e.exponent = toInt(x * R(1.44269504088896341) - .5f);
+    Real t = toReal(e.exponent);
+    Real r = (x - t * R(0.693359375)) - t * R(-2.12194440e-4);
     Real p = R(1.9875691500e-4);
     p = p * r + R(1.3981999507e-3);
     p = p * r + R(8.3334519073e-3);
     p = p * r + R(4.1665795894e-2);
     p = p * r + R(1.6666665459e-1);
     p = p * r + .5f;
-    Real e = (p * r * r + r) + 1.f;
-    return sel(x == x, sel(x < R(-87.3), R(0.), scale_by_power_of_two(e, n)), x);
+    e.beyond_one = p * r * r + r;
+    return e;
+}
+
+/// exp(x) for x <= 0, relative error below 2e-7; 0 where the result would be denormal (x < -87.3).
+FN Real exp_negative(Real x) {
+    // Of no number too; it is given back below.
+    Exponential e = exponential(maxR(x, R(-88.)));
+    Real y = scale_by_power_of_two(e.beyond_one + 1.f, e.exponent);
+    return sel(x == x, sel(x < R(-87.3), R(0.), y), x);
+}
+
+/// 1 - exp(x) for x <= 0, without the loss of digits near 0; relative error below 2e-7.
+FN Real one_minus_exp(Real x) {
+    Exponential e = exponential(maxR(x, R(-88.)));
+    Real scale = scale_by_power_of_two(R(1.), e.exponent);
+    return sel(x == x, (R(1.) - scale) - scale * e.beyond_one, x);
 }
 
 /// atan2, absolute error below 3e-7; atan2(0, 0) = 0. Minimax polynomial on [0, tan(pi/8)]

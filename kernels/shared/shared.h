@@ -34,6 +34,7 @@
 #include "shared/bsdf_types.h"
 #include "shared/emitter_types.h"
 #include "shared/energy_compensation.h"
+#include "shared/glossy_lobe.h"
 #include "shared/light_importance.h"
 #include "shared/principled.h"
 
@@ -41,6 +42,7 @@
 #include "shared/bsdf_dielectric.h"
 #include "shared/bsdf_diffuse.h"
 #include "shared/bsdf_null.h"
+#include "shared/bsdf_phong.h"
 #include "shared/bsdf_plastic.h"
 #include "shared/bsdf_principled.h"
 #include "shared/bsdf_principledthin.h"
@@ -49,6 +51,7 @@
 #include "shared/bsdf_roughdiffuse.h"
 #include "shared/bsdf_roughplastic.h"
 #include "shared/bsdf_thindielectric.h"
+#include "shared/bsdf_ward.h"
 
 #include "shared/emitter_area_cylinder.h"
 #include "shared/emitter_area_disk.h"

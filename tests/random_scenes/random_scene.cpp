@@ -36,6 +36,14 @@ std::string roughness(Draws& draws, bool even = false) {
     return text + number("alpha_v", draws.roughness());
 }
 
+std::string ward_roughness(Draws& draws) {
+    const char* variant = draws.one_of({"balanced", "ward", "ward-duer"});
+    std::string text = fmt::format("<string name=\"variant\" value=\"{}\"/>", variant);
+    if (draws.chance(0.5)) return text + number("alpha", draws.roughness());
+    text += number("alpha_u", draws.roughness());
+    return text + number("alpha_v", draws.roughness());
+}
+
 std::string metal(Draws& draws) {
     if (draws.chance(0.3))
         return "<string name=\"material\" value=\"Au\"/>" + tint("specular_reflectance", draws);
@@ -66,7 +74,7 @@ std::string bsdf(Draws& draws, int nesting = 3) {
     auto plugin = [](const char* type, const std::string& inside) {
         return fmt::format("<bsdf type=\"{}\">{}</bsdf>", type, inside);
     };
-    switch (draws.below(nesting > 0 ? 15 : 13)) {
+    switch (draws.below(nesting > 0 ? 17 : 15)) {
     case 0:
     case 1:
         return plugin("diffuse", tint("reflectance", draws));
@@ -93,8 +101,15 @@ std::string bsdf(Draws& draws, int nesting = 3) {
     case 12:
         return plugin("principledthin", principled(draws, true));
     case 13:
+        return plugin("phong", number("exponent", 1000 * draws.share()) +
+                                   tint("diffuse_reflectance", draws) +
+                                   tint("specular_reflectance", draws));
+    case 14:
+        return plugin("ward", ward_roughness(draws) + tint("diffuse_reflectance", draws) +
+                                  tint("specular_reflectance", draws));
+    case 15:
         return plugin("mask", number("opacity", draws.share()) + bsdf(draws, nesting - 1));
-    case 14: {
+    case 16: {
         std::string weight = number("weight", draws.share()), first = bsdf(draws, nesting - 1);
         return plugin("blendbsdf", weight + first + bsdf(draws, nesting - 1));
     }

@@ -65,6 +65,9 @@ inline void set_unlike(parameter::EvenRoughness, parameter::EvenRoughness::Value
 inline void set_unlike(parameter::Roughness, parameter::Roughness::Value& v, Unlike& u) {
     v = {MicrofacetDistribution::ggx, u.share(), u.share()};
 }
+inline void set_unlike(parameter::WardRoughness, parameter::WardRoughness::Value& v, Unlike& u) {
+    v = {WardVariant::ward, u.share(), u.share()};
+}
 
 /// Every kind, each of its numbers unlike what is there where a file says nothing.
 inline std::vector<Bsdf> every_unlike_bsdf() {
@@ -124,6 +127,14 @@ inline std::string in_file(parameter::Roughness, std::string_view,
     return in_file(v.distribution) + in_file(parameter::Number{}, "alpha_u", v.alpha_u.constant) +
            in_file(parameter::Number{}, "alpha_v", v.alpha_v.constant);
 }
+inline std::string in_file(parameter::WardRoughness, std::string_view,
+                           const parameter::WardRoughness::Value& v) {
+    constexpr std::string_view names[] = {"balanced", "ward", "ward-duer"};
+    return fmt::format("<string name='variant' value='{}'/>",
+                       names[static_cast<std::size_t>(v.variant)]) +
+           in_file(parameter::Number{}, "alpha_u", v.alpha_u.constant) +
+           in_file(parameter::Number{}, "alpha_v", v.alpha_v.constant);
+}
 
 // A value with one of its numbers changed, for each of them.
 
@@ -154,6 +165,13 @@ inline std::vector<parameter::Roughness::Value> varied(const parameter::Roughnes
     return {{MicrofacetDistribution::beckmann, v.alpha_u, v.alpha_v},
             {v.distribution, v.alpha_u.constant * 1.0625, v.alpha_v},
             {v.distribution, v.alpha_u, v.alpha_v.constant * 1.0625}};
+}
+inline std::vector<parameter::WardRoughness::Value>
+varied(const parameter::WardRoughness::Value& v) {
+    return {{WardVariant::balanced, v.alpha_u, v.alpha_v},
+            {WardVariant::ward_duer, v.alpha_u, v.alpha_v},
+            {v.variant, v.alpha_u.constant * 1.0625, v.alpha_v},
+            {v.variant, v.alpha_u, v.alpha_v.constant * 1.0625}};
 }
 
 /// A record as lanes see it.

@@ -74,6 +74,17 @@ inline Bsdf example_principledthin(int which) {
     return b;
 }
 
+inline Bsdf example_phong(int which) {
+    PhongBsdf b{20.0, Rgb(0.3, 0.5, 0.2), Rgb(0.4)};
+    if (which) b = {3.0, Rgb(0.8), Rgb(0.3, 0.6, 0.5)}; // scaled down
+    return b;
+}
+inline Bsdf example_ward(int which) {
+    WardBsdf b{{WardVariant::balanced, 0.3, 0.5}, Rgb(0.3, 0.2, 0.5), Rgb(0.5)};
+    if (which) b = {{WardVariant::ward, 0.4, 0.4}, Rgb(0.2), Rgb(0.3, 0.6, 0.5)};
+    return b;
+}
+
 using Example = Bsdf (*)(int);
 #define EXAMPLE_MATERIAL(name, ...) example_##name,
 inline constexpr std::array example_materials{MATERIALS(EXAMPLE_MATERIAL)};

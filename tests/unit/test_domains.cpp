@@ -58,6 +58,7 @@ std::optional<double> expected_mean(const NumberParameter& p, std::string_view p
     if (p.tag == "sampler" || p.tag == "film" || (p.tag == "rfilter" && v <= 1)) return 0.5;
     if (plugin == "conductor" && p.name == "specular_reflectance") return v;
     if (mentions(plugin, "principled")) return std::nullopt; // of lobes that are not white together
+    if (plugin == "phong" || plugin == "ward") return std::nullopt; // test_papers_glossy_lobes.cpp
     if (plugin == "roughdiffuse") return 0.4; // half is reflected of what its grooves let out
     bool share_of_white = plugin == "mask" || plugin == "blendbsdf";
     if (p.tag == "bsdf" && (p.form == NumberForm::real || share_of_white)) return 1.0;

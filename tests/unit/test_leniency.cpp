@@ -85,11 +85,6 @@ TEST_CASE("lenient: integrators, sensors, films, samplers and filters of other p
 }
 
 TEST_CASE("lenient: bsdfs become their nearest kin") {
-    auto phong = bsdf_of<RoughPlasticBsdf>(
-        "<bsdf type='phong'><float name='exponent' value='30'/><rgb name='diffuse_reflectance' "
-        "value='.1,.2,.3'/></bsdf>");
-    CHECK(phong.diffuse_reflectance.constant == Rgb(0.1, 0.2, 0.3));
-    CHECK(phong.roughness.alpha == Approx(0.25)); // sqrt(2 / 32)
     auto disney = bsdf_of<RoughPlasticBsdf>(
         "<bsdf type='disneybsdf'><texture type='checkerboard' name='base_color'/><float "
         "name='roughness' value='.5'/><float name='flatness' value='1'/></bsdf>");

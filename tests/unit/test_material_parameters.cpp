@@ -57,6 +57,11 @@ void expect_roughness(Words& w, const parameter::EvenRoughness::Value& v) {
     w.alpha_u = w.alpha_v = v.alpha;
 }
 void expect_alpha(Words& w, double alpha) { w.alpha_u = alpha; }
+void expect_exponent(Words& w, const Textured<double>& v) { w.alpha_u = v.constant; }
+void expect_roughness(Words& w, const parameter::WardRoughness::Value& v) {
+    w.kr = v.variant == WardVariant::ward ? 1 : v.variant == WardVariant::ward_duer ? 2 : 0;
+    w.alpha_u = v.alpha_u.constant, w.alpha_v = v.alpha_v.constant;
+}
 void expect_eta(Words& w, const Textured<double>& eta) { w.er = eta.constant; }
 void expect_base_color(Words& w, const Textured<Rgb>& color) { expect_reflectance(w, color); }
 void expect_roughness(Words& w, const Textured<double>& v) { w.alpha_u = v.constant; }
@@ -73,6 +78,7 @@ void expect_diff_trans(Words& w, const Textured<double>& v) { w.kg = v.constant;
 void expect_diffuse_reflectance(const Words&, const Textured<Rgb>&) {}
 void expect_nonlinear(const Words&, bool) {}
 void expect_energy_compensation(const Words&, bool) {}
+void expect_ensure_energy_conservation(const Words&, bool) {}
 
 // What several parameters become together.
 
@@ -112,6 +118,19 @@ void expect_together(Words& w, const RoughPlasticBsdf& b) {
     expect_coat(w, b);
     w.kb = w.eg = 1;
 }
+
+/// Mitsuba 0.6's manual and its warning: where a component of their sum is above 1 both
+/// reflectances are scaled, by 0.99 over the largest.
+void expect_limited(Words& w, const auto& b) {
+    expect_reflectance(w, b.diffuse_reflectance);
+    expect_specular_transmittance(w, b.specular_reflectance);
+    double most = std::max({w.r + w.tr, w.g + w.tg, w.b + w.tb});
+    if (!b.ensure_energy_conservation || most <= 1) return;
+    for (double* word : {&w.r, &w.g, &w.b, &w.tr, &w.tg, &w.tb})
+        *word *= 0.99 / most;
+}
+void expect_together(Words& w, const PhongBsdf& b) { expect_limited(w, b); }
+void expect_together(Words& w, const WardBsdf& b) { expect_limited(w, b); }
 
 /// Not an interface, whose eta has several words; opaque where spec_trans is 0.
 void expect_together(Words& w, const PrincipledBsdf& b) {
@@ -155,13 +174,17 @@ void check_interface(const MaterialRecord& found, double eta) {
     CHECK(double(found.kg) + found.kb == Approx(1 / (eta * eta) - 1).epsilon(1e-13));
 }
 
-// What Mitsuba 3's documentation gives a parameter that is missing; of `roughdiffuse`, Mitsuba
-// 0.6's. No metal is named: it reflects everything.
+// What Mitsuba 3's documentation gives a parameter that is missing; of `roughdiffuse`, `phong` and
+// `ward` Mitsuba 0.6's. No metal is named: it reflects everything.
 
 Rgb missing_reflectance(const auto&) { return Rgb(0.5); }
 Rgb missing_diffuse_reflectance(const auto&) { return Rgb(0.5); }
 bool missing_nonlinear(const auto&) { return false; }
 Rgb missing_specular_reflectance(const auto&) { return Rgb(1.0); }
+Rgb missing_specular_reflectance(const PhongBsdf&) { return Rgb(0.2); }
+Rgb missing_specular_reflectance(const WardBsdf&) { return Rgb(0.2); }
+double missing_exponent(const auto&) { return 30; }
+bool missing_ensure_energy_conservation(const auto&) { return true; }
 Rgb missing_specular_transmittance(const auto&) { return Rgb(1.0); }
 parameter::ComplexIndex::Value missing_index(const auto&) { return {Rgb(0.0), Rgb(1.0)}; }
 double missing_eta(const PlasticBsdf&) { return 1.49 / 1.000277; } // "polypropylene" in "air"
@@ -184,6 +207,9 @@ double missing_diff_trans(const auto&) { return 0; }
 double missing_eta(const auto&) { return 1.5046 / 1.000277; } // "bk7" in "air"
 parameter::EvenRoughness::Value missing_roughness(const RoughPlasticBsdf&) {
     return {MicrofacetDistribution::beckmann, 0.1};
+}
+parameter::WardRoughness::Value missing_roughness(const WardBsdf&) {
+    return {WardVariant::balanced, 0.1, 0.1};
 }
 parameter::Roughness::Value missing_roughness(const auto&) {
     return {MicrofacetDistribution::beckmann, 0.1, 0.1};

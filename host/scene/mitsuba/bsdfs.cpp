@@ -175,6 +175,16 @@ parameter::Roughness::Value read(parameter::Roughness, Properties& p, std::strin
     return {distribution, alpha_u, required("alpha_v")};
 }
 
+/// As in Mitsuba 0.6 `alpha` is what `alpha_u` and `alpha_v` are without a value of their own.
+parameter::WardRoughness::Value read(parameter::WardRoughness, Properties& p, std::string_view,
+                                     const parameter::WardRoughness::Value& missing) {
+    const auto variant = static_cast<WardVariant>(
+        p.choice("variant", "balanced", {"balanced", "ward", "ward-duer"}));
+    const double alpha = p.number("alpha", missing.alpha_u.constant);
+    const Textured<double> alpha_u = p.textured_number("alpha_u", alpha);
+    return {variant, alpha_u, p.textured_number("alpha_v", alpha)};
+}
+
 /// Measured in white furnaces (docs/accuracy.md): where the energy table is too coarse. `rougher`
 /// is what the larger roughness may be.
 void note_compensation(Properties& p, const auto& b, double rougher) {
@@ -204,6 +214,22 @@ void note_together(Properties& p, const RoughPlasticBsdf& b) {
     if (b.energy_compensation && has_thin_base(b))
         p.note("int_ior", "there is no energy compensation where \"int_ior\" is less than "
                           "\"ext_ior\"");
+}
+
+/// Where Mitsuba 0.6 and 3 differ, a number of a texture is that of 3.
+void note_luminance(Properties& p, std::string_view name, const Textured<double>& value) {
+    if (!value.texture) return;
+    const auto* bitmap = std::get_if<BitmapTexture>(&value.texture.texture->kind);
+    if (bitmap && bitmap->source.layout.channels > 1)
+        p.note(name, "colours count by their luminance; in Mitsuba 0.6 by the mean of their "
+                     "channels, which is the same of greys");
+}
+
+void note_together(Properties& p, const PhongBsdf& b) { note_luminance(p, "exponent", b.exponent); }
+
+void note_together(Properties& p, const WardBsdf& b) {
+    note_luminance(p, "alpha_u", b.roughness.alpha_u);
+    note_luminance(p, "alpha_v", b.roughness.alpha_v);
 }
 
 /// They weigh what directions are drawn from, which we do by what each sends on.

@@ -23,9 +23,7 @@ constexpr std::array<Kin, 5> kin_of_tags = {{{"integrator", "path"},
                                              {"rfilter", "gaussian"}}};
 
 /// Bsdfs of Mitsuba 0.x, of Mitsuba 3 and of its forks that have a nearer kin than `diffuse`.
-constexpr std::array<Kin, 5> kin_of_bsdfs = {{{"phong", "roughplastic"},
-                                              {"ward", "roughplastic"},
-                                              {"disneybsdf", "roughplastic"},
+constexpr std::array<Kin, 3> kin_of_bsdfs = {{{"disneybsdf", "roughplastic"},
                                               {"disneymetal", "roughconductor"},
                                               {"disneyglass", "roughdielectric"}}};
 
@@ -36,7 +34,7 @@ struct Synonyms {
 };
 constexpr std::array<Synonyms, 8> synonyms = {
     {{"roughplastic", "diffuse_reflectance", {"diffuse_reflectance", "base_color", "reflectance"}},
-     {"roughplastic", "alpha", {"alpha", "roughness", "exponent", "alpha_u"}},
+     {"roughplastic", "alpha", {"alpha", "roughness"}},
      {"plastic", "diffuse_reflectance", {"diffuse_reflectance", "base_color", "reflectance"}},
      {"diffuse", "reflectance", {"reflectance", "diffuse_reflectance", "base_color", "albedo"}},
      {"roughconductor", "specular_reflectance", {"specular_reflectance", "base_color"}},
@@ -82,8 +80,7 @@ std::optional<std::string_view> kin_name(const Object& object) {
     return std::nullopt;
 }
 
-/// Roughness from what other models call by other names (Walter et al. 2007, section 5.2, of
-/// Phong's exponent; Burley 2012 of roughness).
+/// Roughness from what other models call so (Burley 2012).
 void to_alpha(Parameter& p) {
     double value = 0.0;
     if (const auto* real = std::get_if<double>(&p.value))
@@ -92,7 +89,6 @@ void to_alpha(Parameter& p) {
         value = static_cast<double>(*whole);
     else
         return;
-    if (p.name == "exponent") p.value = std::sqrt(2.0 / (value + 2.0));
     if (p.name == "roughness") p.value = value * value;
 }
 

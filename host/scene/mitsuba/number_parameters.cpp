@@ -82,6 +82,9 @@ MaterialNumbers numbers(parameter::Roughness, std::string_view) {
     return {{"alpha", real}, {"alpha_u", real}, {"alpha_v", real}};
 }
 
+MaterialNumbers numbers(parameter::WardRoughness, std::string_view name) {
+    return numbers(parameter::Roughness{}, name);
+}
 MaterialNumbers numbers(parameter::EvenRoughness, std::string_view) { return {{"alpha", real}}; }
 
 /// Kinds that have the same number share a row.
