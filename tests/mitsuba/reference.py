@@ -2,6 +2,7 @@
 
 import contextlib
 import hashlib
+import importlib
 import json
 import pathlib
 import time
@@ -13,6 +14,7 @@ import numpy as np
 mitsuba.set_variant("scalar_rgb")
 mitsuba.set_log_level(mitsuba.LogLevel.Error)
 drjit.set_thread_count(1)
+importlib.import_module("old_bsdfs")  # once there is a variant
 
 SUPERSAMPLING = 12  # sub-pixels a side, for filters
 
