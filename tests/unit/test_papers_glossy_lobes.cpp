@@ -205,3 +205,28 @@ TEST_CASE(
     for (int variant : {1, 2})
         CHECK(sent_on<F32>(lobe<F32>(material_ward, 0.3, 0.3, variant), 1.5707, true).mean() > 1.5);
 }
+
+TEST_CASE("Papers: of a lobe narrower than directions are rounded samples tell its density",
+          "[papers]") {
+    constexpr double angle = 0.7;
+    constexpr int count = 10000;
+    // Over that at its peak it is even between 0 and 1; the weight is that of a mirror.
+    auto check = [](f32::Material m, double peak, double weight) {
+        m.r = m.g = m.b = 0, m.tr = m.tg = m.tb = 1;
+        Random random(6);
+        Mean share, weights;
+        for (int k = 0; k < count; k++) {
+            auto s = bsdf_sample(m, direction<F32>(angle, 0.4), random.square<F32>(), 0.f);
+            share.add(double(s.pdf) / peak), weights.add(double(s.weight.x));
+        }
+        CHECK(std::fabs(share.mean() - 0.5) < 4 * share.error());
+        CHECK(weights.mean() == Approx(weight).epsilon(1e-5));
+    };
+    for (double n : {1e12, 1e15, 1e18})
+        check(lobe<F32>(material_phong, n), n / (2 * pi), std::cos(angle));
+    // As published it lacks what Duer makes up for.
+    for (double alpha : {1e-6, 1e-8, 1e-9})
+        for (auto [variant, weight] : {std::pair{0, 1.0}, {1, std::cos(angle)}, {2, 1.0}})
+            check(lobe<F32>(material_ward, alpha, alpha, variant),
+                  1 / (4 * pi * alpha * alpha * std::cos(angle)), weight);
+}
