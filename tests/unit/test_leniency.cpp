@@ -124,3 +124,23 @@ TEST_CASE("lenient: what is broken is refused all the same") {
     CHECK_THAT(lenient_refusal("<shape type='sphere'><ref id='nobody'/></shape>"),
                Contains("nobody"));
 }
+
+TEST_CASE("lenient: of what is given twice one counts, and it is said which") {
+    const std::string body = "<shape type='sphere'>\n<float name='radius' value='1'/>\n"
+                             "<float name='radius' value='3'/>\n<bsdf type='diffuse' id='a'/>\n"
+                             "<bsdf type='plastic' id='b'/></shape>";
+    SceneFolder folder;
+    const std::string strict = refusal_of(folder.write("scene.xml", scene_text(body)));
+    CHECK_THAT(strict, Contains("scene.xml:4: parameter \"radius\" is given twice"));
+    CHECK_THAT(refusal_of(folder.write("scene.xml",
+                                       scene_text("<shape type='sphere'>\n<bsdf type='diffuse'/>\n"
+                                                  "<bsdf type='diffuse'/></shape>"))),
+               Contains("scene.xml:4: ") && Contains("more than one <bsdf>"));
+    const Scene scene = lenient_body(body);
+    CHECK(std::get<Sphere>(scene.shapes.at(0).geometry).radius == 3);
+    const int front = scene.shapes.at(0).material_front;
+    CHECK(scene.materials.at(static_cast<std::size_t>(front)).id == "a");
+    CHECK(notes_with(scene, "scene.xml:4: parameter \"radius\" is given twice") == 1);
+    CHECK(notes_with(scene, "the last counts") == 1);
+    CHECK(notes_with(scene, "the first counts") == 1);
+}

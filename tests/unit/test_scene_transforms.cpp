@@ -120,6 +120,9 @@ TEST_CASE("scene transforms: axes and directions of any length") {
     for (const char* z : {"1e-320", "1e-200", "1e90"})
         check_matrix("<rotate z=\"" + std::string(z) + "\"" + turn,
                      {0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 1e-15);
+    for (const char* whole_turns : {"0", "360", "-720"}) // about nothing, as some exporters write
+        check_matrix("<rotate x=\"0\" y=\"0\" z=\"0\" angle=\"" + std::string(whole_turns) + "\"/>",
+                     {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 0);
     check_matrix("<lookat origin=\"0 0 0\" target=\"0 0 1e-200\" up=\"0 1e-300 0\"/>",
                  {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 1e-15);
 }
@@ -129,7 +132,7 @@ TEST_CASE("scene transforms: refusals") {
         std::string step, part;
     };
     const Case cases[] = {
-        {"<rotate angle=\"30\"/>", "cannot be zero"},
+        {"<rotate angle=\"30\"/>", "cannot be zero for an angle of 30"},
         {"<rotate x=\"1\"/>", "\"angle\""},
         {"<rotate x=\"1\" angle=\"a\"/>", "\"a\""},
         {"<lookat origin=\"1 2 3\" target=\"1 2 3\" up=\"0 1 0\"/>", "same point"},

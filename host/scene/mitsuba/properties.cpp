@@ -258,8 +258,12 @@ std::vector<const Child*> Properties::children(std::string_view tag) {
 
 const Object* Properties::only_child(std::string_view tag) {
     const std::vector<const Child*> found = children(tag);
-    if (found.size() > 1)
-        refuse_at(found[1]->location, fmt::format("{} has more than one <{}>", title(), tag));
+    if (found.size() > 1) {
+        const std::string several =
+            fmt::format("{} has more than one <{}> (accepted: one)", title(), tag);
+        if (!document_.lenient) refuse_at(found[1]->location, several);
+        notes_.push_back(found[1]->location.to_string() + ": " + several + "; the first counts");
+    }
     return found.empty() ? nullptr : &target(*found[0]);
 }
 

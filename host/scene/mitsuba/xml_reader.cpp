@@ -8,6 +8,8 @@
 #include "host/scene/mitsuba/xml_values.h"
 #include "host/scene/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -276,13 +278,20 @@ void Reader::read_parameter(const Source& source, pugi::xml_node node, std::size
 }
 
 void Reader::add_parameter(std::size_t parent, Parameter parameter) {
-    Object& object = document_.objects[parent];
-    for (const Parameter& other : object.parameters)
-        if (other.name == parameter.name)
-            refuse(parameter.location, "parameter " + in_quotes(parameter.spelling) +
-                                           " is given twice, first at " +
-                                           other.location.to_string());
-    object.parameters.push_back(std::move(parameter));
+    std::vector<Parameter>& all = document_.objects[parent].parameters;
+    const auto other = std::find_if(all.begin(), all.end(),
+                                    [&](const Parameter& p) { return p.name == parameter.name; });
+    if (other == all.end()) {
+        all.push_back(std::move(parameter));
+        return;
+    }
+    const std::string twice =
+        fmt::format("parameter {} is given twice, first at {}", in_quotes(parameter.spelling),
+                    other->location.to_string());
+    if (!document_.lenient) refuse(parameter.location, twice);
+    document_.notes.push_back(parameter.location.to_string() + ": " + twice +
+                              "; the last counts, as in Mitsuba 0.6");
+    *other = std::move(parameter);
 }
 
 } // namespace

@@ -171,12 +171,18 @@ Value read_spectrum(const Element& e) {
 glm::dmat4 read_rotate(const Element& e) {
     check_attributes(e.xml, e.node, {"!angle", "value", "x", "y", "z"});
     const glm::dvec3 axis = step_vector(e, 0.0);
-    if (axis == glm::dvec3(0.0)) refuse(e.place(), "<rotate>: the axis (x, y, z) cannot be zero");
+    const double angle = step_number(e, "angle");
+    if (axis == glm::dvec3(0.0)) {
+        if (std::remainder(angle, 360.0) == 0.0) return glm::dmat4(1.0); // as in Mitsuba 3
+        refuse(e.place(), fmt::format("<rotate>: the axis (x, y, z) cannot be zero for an angle of "
+                                      "{} (accepted: another axis, or angle 0)",
+                                      angle));
+    }
     if (std::abs(glm::length(axis) - 1.0) > 1e-5)
         e.notes.push_back(e.place().to_string() +
                           ": <rotate>: the axis is not a unit vector; it is used as a direction "
                           "(Mitsuba 3 gives a matrix that is no rotation)");
-    return rotation(axis, step_number(e, "angle"));
+    return rotation(axis, angle);
 }
 
 glm::dmat4 read_look_at(const Element& e) {
