@@ -216,11 +216,11 @@ inline void set_beckmann(Setup& s, bool on) {
     if (!on) change_rough(s.scene, [](auto& r) { r.distribution = MicrofacetDistribution::ggx; });
 }
 inline void set_anisotropy(Setup& s, bool on) {
-    if (!on)
-        change_rough(s.scene, [](auto& r) {
-            if constexpr (requires { r.alpha_u; }) r.alpha_v = r.alpha_u;
-        });
-    if (!on) change_principled(s, [](auto& b) { b.anisotropic = 0.0; });
+    if (on) return;
+    change_materials(s, [](auto& b, std::size_t) {
+        if constexpr (requires { b.roughness.alpha_v; }) b.roughness.alpha_v = b.roughness.alpha_u;
+        if constexpr (requires { b.anisotropic; }) b.anisotropic = 0.0;
+    });
 }
 inline void set_tilts(Setup& s, bool of_normals) {
     for (std::size_t i = 0; i < s.scene.materials.size(); i++)
