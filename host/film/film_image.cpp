@@ -92,7 +92,7 @@ double main_layer_unit(IntegratorKind kind, const SceneFrame& frame) {
     }
 }
 
-Image film_image(const std::vector<float>& film, const FilmLayout& layout, const Scene& scene,
+Image film_image(std::span<const std::uint32_t> film, const FilmLayout& layout, const Scene& scene,
                  const AovPlan& aovs, const SceneFrame& frame) {
     const Film& crop = scene.film;
     Image image;

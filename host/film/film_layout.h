@@ -24,11 +24,10 @@ struct FilmLayout {
     /// in their pixels.
     int result_channels() const { return RESULT_CHANNELS(aov_channels, window.reach > 0); }
 
-    /// Floats from one channel to the next.
+    /// Words from one digit of a sum to the next.
     std::size_t stride() const { return odd_lines(window.tiles() * window.tile_cells()); }
-    /// Where the low parts of the sums begin.
-    std::size_t low_part() const { return static_cast<std::size_t>(channels()) * stride(); }
-    std::size_t floats() const { return 2 * low_part(); }
+    std::size_t channel_words() const { return EXACT_WORDS * stride(); }
+    std::size_t words() const { return static_cast<std::size_t>(channels()) * channel_words(); }
 };
 
 inline FilmLayout film_layout(const Scene& scene, const AovPlan& aovs) {

@@ -35,9 +35,7 @@ int stream_count(const WorkSplit& split, const Device& device) {
 /// Told before anything is rendered: systems give out memory that they do not have, and end the
 /// program when it is used.
 void check_film_memory(const Scene& scene, const FilmLayout& layout, const Device& device) {
-    double film = static_cast<double>(layout.floats()) * sizeof(float);
-    // A CPU's memory holds what is read from the film, too.
-    double needed = device.is_cpu ? 2.0 * film : film;
+    const double needed = static_cast<double>(layout.words()) * sizeof(cl_uint);
     if (needed <= static_cast<double>(device.memory_bytes)) return;
     throw InputError(fmt::format(
         "{}: a film of {} x {} pixels and {} channels takes {:.1f} GB; {} has {:.1f} GB (accepted: "
@@ -154,7 +152,7 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     progress.finish(fmt::format("{:.2f} Mpaths/s, {:.2f} Mrays/s",
                                 static_cast<double>(report.paths) / report.render_seconds / 1e6,
                                 static_cast<double>(report.rays()) / report.render_seconds / 1e6));
-    result.image = film_image(waves.read_film(), sizes.film, scene, aovs, flat.frame);
+    result.image = film_image(waves.film_view(), sizes.film, scene, aovs, flat.frame);
     return result;
 }
 

@@ -12,19 +12,11 @@ void DeviceWaves::upload(const DeviceScene& scene) {
 }
 
 void DeviceWaves::allocate(const WorkSizes& s, const RenderParams& params) {
-    film_ = {device_.context, "film", buffer_counts(s).film};
-    film_.fill_zero(device_.queue);
-    device_.queue.finish();
+    film_ = Buffer<cl_uint>::zeros(device_.context, device_.queue, "film", buffer_counts(s).film);
     for (int i = 0; i < s.streams; i++) {
         streams_.emplace_back(device_, stages_, s);
         streams_.back().bind(scene_, film_, params);
     }
-}
-
-std::vector<float> DeviceWaves::read_film() {
-    std::vector<float> film(film_.count());
-    film_.read(device_.queue, film.data());
-    return film;
 }
 
 std::vector<ulong> DeviceWaves::read_statistics() {

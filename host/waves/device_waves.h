@@ -19,7 +19,7 @@ public:
     void allocate(const WorkSizes& sizes, const RenderParams& params);
 
     std::vector<WaveStream>& streams() { return streams_; }
-    std::vector<float> read_film();
+    BufferView<cl_uint> film_view() { return {device_.queue, film_}; }
     /// STATISTICS and FAULTS of each segment of all streams.
     std::vector<ulong> read_statistics();
     /// The first of each block of the film, in no order.
@@ -35,7 +35,7 @@ private:
     RenderDevice& device_;
     StagePrograms stages_;
     SceneBuffers scene_;
-    Buffer<float> film_;
+    Buffer<cl_uint> film_;
     std::vector<WaveStream> streams_;
 };
 
