@@ -34,7 +34,7 @@ void render_flat(const Scene& scene, const DeviceScene& flat, const RenderOption
     result.report.render_seconds = seconds_since(start);
     add_counts(memory.statistics, result.report);
     result.report.bad_samples = first_bad_samples({memory.bad_samples});
-    result.image = film_image(memory.film, sizes.film, scene, aovs, flat.frame);
+    result.image = film_image(memory.film, sizes.film, scene.film, scene, aovs, flat.frame);
 }
 
 } // namespace

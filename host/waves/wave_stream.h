@@ -14,6 +14,11 @@ namespace parhelion {
 struct StageTime {
     double kernel_seconds = 0;
     std::size_t launches = 0;
+
+    StageTime& operator+=(const StageTime& other) {
+        kernel_seconds += other.kernel_seconds, launches += other.launches;
+        return *this;
+    }
 };
 
 /// A WaveDevice. Streams of one render may be used by a thread each.
