@@ -28,24 +28,29 @@ struct Reading {
     std::vector<std::string> notes, problems;
 };
 
-std::vector<std::string> lines_of(const InputError& error) {
-    const std::string_view lines = error.what();
-    const auto problems = split(lines, "\n");
-    return {problems.begin(), problems.end()};
-}
-
 /// As far as the kernels' records: values of images and sizes are seen only there.
 Reading read(const std::string& file, const LoadOptions& options) {
     Reading reading;
     try {
         const Scene scene = load_scene(file, options);
         reading.notes = scene.notes;
-        const DeviceScene flat = make_device_scene(scene);
+        const DeviceScene flat = flatten_scene(scene);
         reading.notes.insert(reading.notes.end(), flat.notes.begin(), flat.notes.end());
     } catch (const InputError& error) {
-        reading.problems = lines_of(error);
+        const std::string_view lines = error.what();
+        const auto problems = split(lines, "\n");
+        reading.problems.assign(problems.begin(), problems.end());
     }
     return reading;
+}
+
+/// None of what is no scene file; reading it says why.
+std::vector<Construct> known_constructs(const std::string& file, const LoadOptions& options) {
+    try {
+        return scene_constructs(file, options);
+    } catch (const InputError&) {
+        return {};
+    }
 }
 
 /// Which construct a message that begins with a place is about.
@@ -118,27 +123,10 @@ std::map<std::string, std::string> by_place(const Places& places,
     return texts;
 }
 
-/// Of what is no scene file.
-nlohmann::json nothing_known(const std::string& file, const std::vector<std::string>& problems) {
-    nlohmann::json messages = nlohmann::json::array();
-    for (const std::string& problem : problems)
-        messages.push_back({{"status", status_names[refused]}, {"text", problem}});
-    return {{"scene", file},
-            {"verdict", status_names[refused]},
-            {"constructs", nlohmann::json::array()},
-            {"messages", messages},
-            {"opens_leniently", false}};
-}
-
 } // namespace
 
 nlohmann::json check_scene(const std::string& file, const LoadOptions& options) {
-    std::vector<Construct> constructs;
-    try {
-        constructs = scene_constructs(file, options);
-    } catch (const InputError& error) {
-        return nothing_known(file, lines_of(error));
-    }
+    const std::vector<Construct> constructs = known_constructs(file, options);
     const Places places(constructs);
     const Reading strict = read(file, options);
     LoadOptions leniently = options;

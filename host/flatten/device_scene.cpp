@@ -70,7 +70,7 @@ std::size_t primitive_count(const Shape& shape) {
     return mesh ? mesh->triangles.size() : 1;
 }
 
-static DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
+DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
     DeviceScene out;
     out.frame = scene_frame(scene);
     out.notes = rounding_notes(scene, out.frame);

@@ -70,8 +70,11 @@ struct DeviceScene {
     std::size_t bytes() const;
 };
 
-/// Flattens a scene and builds its BVH. Throws InputError where the scene is larger than the
-/// device's 32-bit indices.
+/// All of it but the BVH: what may be wrong with a scene is seen here. Throws InputError, among
+/// others where the scene is larger than the device's 32-bit indices.
+DeviceScene flatten_scene(const Scene& scene, LightChoice choice = LightChoice::importance);
+
+/// Flattens a scene and builds its BVH. Throws as flatten_scene does.
 DeviceScene make_device_scene(const Scene& scene, LightChoice choice = LightChoice::importance);
 
 /// Of a shape; 0 for a mesh without triangles.

@@ -106,7 +106,7 @@ void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
         const LightRow& row = rows[i];
         for (int k = 0; row.first_primitive >= 0 && k < row.primitive_count; k++)
             out.geometry.primitives[row.first_primitive + k].light = static_cast<int>(i);
-        if (emitter_places[row.kind] == all_around) out.sky_light = static_cast<int>(i);
+        if (emitter_places[row.kind] == place_all_around) out.sky_light = static_cast<int>(i);
         out.lights.push_back(light_record(row, power(row) / total));
     }
     add_light_textures(rows, out);

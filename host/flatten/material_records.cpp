@@ -54,10 +54,14 @@ void set_interface(MaterialRecord& m, double eta) {
     m.kb = static_cast<float>(inside - m.kg);
 }
 
+void set_alphas(MaterialRecord& m, const auto& roughness) {
+    m.alpha_u = static_cast<float>(or_one(roughness.alpha_u));
+    m.alpha_v = static_cast<float>(or_one(roughness.alpha_v));
+}
+
 void set_roughness(MaterialRecord& m, const parameter::Roughness::Value& r) {
     m.distribution = r.distribution == MicrofacetDistribution::beckmann ? 1 : 0;
-    m.alpha_u = static_cast<float>(or_one(r.alpha_u));
-    m.alpha_v = static_cast<float>(or_one(r.alpha_v));
+    set_alphas(m, r);
 }
 
 void set_roughness(MaterialRecord& m, const parameter::EvenRoughness::Value& r) {
@@ -66,8 +70,7 @@ void set_roughness(MaterialRecord& m, const parameter::EvenRoughness::Value& r) 
 
 void set_ward(MaterialRecord& m, const parameter::WardRoughness::Value& r) {
     WARD_VARIANT(m) = static_cast<float>(r.variant);
-    m.alpha_u = static_cast<float>(or_one(r.alpha_u));
-    m.alpha_v = static_cast<float>(or_one(r.alpha_v));
+    set_alphas(m, r);
 }
 
 #define SET_TEXTURED_WORD(name)                                                                    \
@@ -140,13 +143,15 @@ void texture_conductor(Rows& t, const parameter::ComplexIndex::Value& index,
     t.eta = row(index.eta.texture);
     t.k = row(index.k.texture);
 }
+void texture_alphas(Rows& t, const auto& roughness, const TextureRow& row) {
+    t.alpha_u = row(roughness.alpha_u.texture);
+    t.alpha_v = row(roughness.alpha_v.texture);
+}
 void texture_roughness(Rows& t, const parameter::Roughness::Value& r, const TextureRow& row) {
-    t.alpha_u = row(r.alpha_u.texture);
-    t.alpha_v = row(r.alpha_v.texture);
+    texture_alphas(t, r, row);
 }
 void texture_ward(Rows& t, const parameter::WardRoughness::Value& r, const TextureRow& row) {
-    t.alpha_u = row(r.alpha_u.texture);
-    t.alpha_v = row(r.alpha_v.texture);
+    texture_alphas(t, r, row);
 }
 void texture_roughness(const Rows&, const parameter::EvenRoughness::Value&, const TextureRow&) {}
 void texture_interface(const Rows&, double, const TextureRow&) {}

@@ -171,7 +171,7 @@ Transport transport(const Integrator& integrator, const DeviceScene& records) {
     int longest = longest_path(integrator);
     auto met =
         std::count_if(records.lights.begin(), records.lights.end(), [](const LightRecord& light) {
-            return emitter_places[light.kind] != nowhere;
+            return emitter_places[light.kind] != place_nowhere;
         });
     bool seen = met > 0;
     t.emission = seen && longest != 0;

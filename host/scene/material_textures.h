@@ -20,13 +20,12 @@ void visit_textures(const parameter::ComplexIndex::Value& index, const Visit& vi
     visit_textures(index.eta, visit);
     visit_textures(index.k, visit);
 }
-template<class Visit>
-void visit_textures(const parameter::Roughness::Value& roughness, const Visit& visit) {
-    visit_textures(roughness.alpha_u, visit);
-    visit_textures(roughness.alpha_v, visit);
+template<class Roughness, class Visit>
+requires requires(const Roughness& r) {
+    r.alpha_u;
+    r.alpha_v;
 }
-template<class Visit>
-void visit_textures(const parameter::WardRoughness::Value& roughness, const Visit& visit) {
+void visit_textures(const Roughness& roughness, const Visit& visit) {
     visit_textures(roughness.alpha_u, visit);
     visit_textures(roughness.alpha_v, visit);
 }

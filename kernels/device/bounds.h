@@ -21,7 +21,7 @@ typedef struct {
 // Of the launch that runs; all its work-items write the same.
 global ulong buffer_begin[buffer_count], buffer_end[buffer_count];
 global ulong outside_report;
-global ulong outside_zeros[64] __attribute__((aligned(64)));
+global ulong nowhere[64] __attribute__((aligned(64)));
 
 /// `at` where it is in the same buffer as `base`, and zeros where not.
 static __attribute__((noinline)) global void* inside(global const void* base, global const void* at,
@@ -35,8 +35,8 @@ static __attribute__((noinline)) global void* inside(global const void* base, gl
     }
     *(global uint*)outside_report = nearest ? nearest : buffer_count + 1;
     for (int k = 0; k < 64; k++)
-        outside_zeros[k] = 0;
-    return (global void*)outside_zeros;
+        nowhere[k] = 0;
+    return (global void*)nowhere;
 }
 
 #define CHECKED_PARAMETERS , const BufferSizes sizes, global uint *outside

@@ -35,7 +35,7 @@ FN EmitterHit emitter_hit(Light l, vec3 p, vec3 wi, vec3 q, Mask weighted) {
     hit.radiance = splat3(R(0.));
     hit.pdf = R(0.);
 #define EMITTER_HIT_CASE(name, place)                                                              \
-    if (place != nowhere && HAS(emitter_##name)) {                                                 \
+    if (place_##place != place_nowhere && HAS(emitter_##name)) {                                   \
         Mask mine = l.kind == emitter_##name;                                                      \
         if (someLane(mine)) {                                                                      \
             Mask bright = mine & emitter_##name##_faces(l, wi, q);                                 \

@@ -90,7 +90,7 @@ enum Feature {
 
 #define KIND_EMITTER(name, ...) emitter_##name,
 enum EmitterKind { EMITTERS(KIND_EMITTER) emitter_kind_count };
-enum EmitterPlace { nowhere, on_shapes, all_around };
+enum EmitterPlace { place_nowhere, place_on_shapes, place_all_around };
 #define KIND_GEOMETRY(name) geometry_##name,
 enum GeometryKind { GEOMETRIES(KIND_GEOMETRY) geometry_kind_count };
 #define KIND_TEXTURE(name, Name) texture_##name,
@@ -111,7 +111,7 @@ static_assert(feature_count <= 64 * FEATURE_WORDS);
 #endif
 
 // Some light comes from wherever nothing is.
-#define OR_SKY(name, place) || (place == all_around && HAS(emitter_##name))
+#define OR_SKY(name, place) || (place_##place == place_all_around && HAS(emitter_##name))
 #define HAS_SKY (0 EMITTERS(OR_SKY))
 
 #endif

@@ -191,7 +191,9 @@ typename P::Vec3 receiver(const LightCase& c) {
 
 bool seen(const f32::EmitterSample& s) { return s.inverse_pdf > 0; }
 
-bool is_delta(const LightCase& c) { return emitter_places.at(std::size_t(c.kind)) == nowhere; }
+bool is_delta(const LightCase& c) {
+    return emitter_places.at(std::size_t(c.kind)) == place_nowhere;
+}
 
 /// A grid over the cone about the emitter that holds all samples: cosine against the axis, and
 /// azimuth.
