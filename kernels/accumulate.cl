@@ -1,4 +1,4 @@
-// Accumulate: the finished samples of a wave go to the film, in the order of their numbers.
+// Accumulate: the finished samples of a wave go to the film, in groups, in any order.
 #include "device/device.h"
 
 #include "device/lanes_memory.h"
@@ -74,8 +74,8 @@ FN void add_samples(BlockResults block, WaveParams wave, int first, int count,
 }
 
 /// Reads: results, filter values. Writes: film (one work-item owns a tile); of samples that are not
-/// finite, which are left out, statistics (how many) and where the first was. Samples are added in
-/// groups in the order of their numbers, so the sums do not depend on the waves.
+/// finite, which are left out, statistics (how many) and where the first was. What is added is
+/// told by the group alone, and added without error: sums do not depend on the waves.
 kernel void accumulate(KERNEL_PARAMETERS) {
     CHECK_BOUNDS();
     int block = get_global_id(0);
@@ -88,9 +88,7 @@ kernel void accumulate(KERNEL_PARAMETERS) {
     FilmTile of_film;
     of_film.stride = params.film_stride;
     of_film.channels = SPREAD_CHANNEL(params.aov_channels, HAS(moments));
-    of_film.high = film + (long)tile * TILE_CELLS(params.filter_reach);
-    int channels = FILM_CHANNELS(params.aov_channels, HAS(moments), HAS(variance));
-    of_film.low = of_film.high + (long)channels * of_film.stride;
+    of_film.digits = film + (long)tile * TILE_CELLS(params.filter_reach);
     BadSamples bad;
     bad.counts = statistics + statistic_count * block + statistic_first_fault;
     bad.first = bad_samples + bad_sample_field_count * (long)tile;

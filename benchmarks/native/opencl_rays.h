@@ -31,7 +31,7 @@ private:
     WorkSizes sizes_;
     SceneBuffers scene_; ///< a kernel does not keep its arguments alive
     WaveBuffers work_;
-    Buffer<float> film_;
+    Buffer<cl_uint> film_;
     cl::Kernel intersect_, shadow_;
     std::size_t count_ = 0;
     bool any_hit_ = false;

@@ -4,6 +4,7 @@
 #include "host/cl/opencl.h"
 #include "host/error.h"
 #include "host/large_vector.h"
+#include "host/zero_pages.h"
 
 #include <fmt/format.h>
 
@@ -72,11 +73,35 @@ public:
         return buffer;
     }
 
+    /// Zeros. On a CPU there is no memory behind what nothing has been written to.
+    static Buffer zeros(const cl::Context& context, const cl::CommandQueue& queue,
+                        const std::string& name, std::size_t count) {
+        if (!shares_host_memory(context)) {
+            Buffer buffer(context, name, count);
+            buffer.fill_zero(queue);
+            queue.finish();
+            return buffer;
+        }
+        Buffer buffer;
+        buffer.count_ = count;
+        try {
+            buffer.pages_ = zero_pages(buffer.places() * sizeof(T));
+            buffer.handle_ =
+                buffer.over(context, CL_MEM_READ_WRITE, static_cast<T*>(buffer.pages_.get()));
+        } catch (const cl::Error&) {
+            buffer.refuse(name);
+        } catch (const std::bad_alloc&) {
+            buffer.refuse(name);
+        }
+        return buffer;
+    }
+
     Buffer(Buffer&& other) noexcept = default;
     Buffer& operator=(Buffer&& other) noexcept {
         // The handle goes before the memory that it is over.
         handle_ = std::exchange(other.handle_, {});
         memory_ = std::move(other.memory_);
+        pages_ = std::move(other.pages_);
         count_ = std::exchange(other.count_, 0);
         return *this;
     }
@@ -110,9 +135,38 @@ private:
                                       static_cast<double>(bytes()) / 1e6));
     }
 
-    LargeVector<T> memory_; ///< what the handle is over, where it is the buffer's own
+    // What the handle is over, where it is the buffer's own: one of them.
+    LargeVector<T> memory_;
+    ZeroPages pages_;
     cl::Buffer handle_;
     std::size_t count_ = 0;
+};
+
+/// A buffer's values as they are when it is made, for as long as it lives: of a CPU's where they
+/// are, of others a copy. Nothing may be written to the buffer meanwhile.
+template<class T>
+class BufferView {
+public:
+    BufferView(const cl::CommandQueue& queue, const Buffer<T>& buffer)
+        : queue_(queue), handle_(buffer.handle()),
+          values_(static_cast<const T*>(
+                      queue.enqueueMapBuffer(handle_, CL_TRUE, CL_MAP_READ, 0, buffer.bytes())),
+                  buffer.count()) {}
+    ~BufferView() {
+        cl_event done = nullptr;
+        if (clEnqueueUnmapMemObject(queue_(), handle_(), const_cast<T*>(values_.data()), 0, nullptr,
+                                    &done) == CL_SUCCESS)
+            cl::Event(done).wait();
+    }
+    BufferView(const BufferView&) = delete;
+    BufferView& operator=(const BufferView&) = delete;
+
+    operator std::span<const T>() const { return values_; }
+
+private:
+    cl::CommandQueue queue_;
+    cl::Buffer handle_;
+    std::span<const T> values_;
 };
 
 } // namespace parhelion

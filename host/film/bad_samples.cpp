@@ -33,9 +33,17 @@ std::vector<BadSample> first_bad_samples(const std::vector<std::vector<int>>& of
         }
         if (first) found.push_back(*first);
     }
-    std::sort(found.begin(), found.end(), before);
-    found.resize(std::min(found.size(), most));
-    return found;
+    return first_of(std::move(found));
+}
+
+std::vector<BadSample> first_of(std::vector<BadSample> all) {
+    std::sort(all.begin(), all.end(), before);
+    const auto same = [](const BadSample& a, const BadSample& b) {
+        return !before(a, b) && !before(b, a);
+    };
+    all.erase(std::unique(all.begin(), all.end(), same), all.end());
+    if (all.size() > most) all.resize(most);
+    return all;
 }
 
 } // namespace parhelion

@@ -28,4 +28,7 @@ struct BadSample {
 /// leaves them. The same for any streams.
 std::vector<BadSample> first_bad_samples(const std::vector<std::vector<int>>& of_streams);
 
+/// The first ones of several films of one picture, which may know of the same.
+std::vector<BadSample> first_of(std::vector<BadSample> all);
+
 } // namespace parhelion

@@ -92,9 +92,8 @@ double main_layer_unit(IntegratorKind kind, const SceneFrame& frame) {
     }
 }
 
-Image film_image(const std::vector<float>& film, const FilmLayout& layout, const Scene& scene,
-                 const AovPlan& aovs, const SceneFrame& frame) {
-    const Film& crop = scene.film;
+Image film_image(std::span<const std::uint32_t> film, const FilmLayout& layout, const Film& crop,
+                 const Scene& scene, const AovPlan& aovs, const SceneFrame& frame) {
     Image image;
     image.width = crop.crop_width, image.height = crop.crop_height;
     image.full_width = crop.width, image.full_height = crop.height;
@@ -118,6 +117,18 @@ Image film_image(const std::vector<float>& film, const FilmLayout& layout, const
                         scaled(reader.means(layout.square_channel() + c), unit * unit));
     }
     return image;
+}
+
+void append_band(Image& image, Image band) {
+    if (image.channels.empty()) {
+        image = std::move(band);
+        return;
+    }
+    image.height += band.height;
+    for (std::size_t c = 0; c < image.channels.size(); c++) {
+        const std::vector<float>& more = band.channels[c].values;
+        image.channels[c].values.insert(image.channels[c].values.end(), more.begin(), more.end());
+    }
 }
 
 } // namespace parhelion

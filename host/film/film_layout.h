@@ -24,16 +24,20 @@ struct FilmLayout {
     /// in their pixels.
     int result_channels() const { return RESULT_CHANNELS(aov_channels, window.reach > 0); }
 
-    /// Floats from one channel to the next.
+    /// Words from one digit of a sum to the next.
     std::size_t stride() const { return odd_lines(window.tiles() * window.tile_cells()); }
-    /// Where the low parts of the sums begin.
-    std::size_t low_part() const { return static_cast<std::size_t>(channels()) * stride(); }
-    std::size_t floats() const { return 2 * low_part(); }
+    std::size_t channel_words() const { return EXACT_WORDS * stride(); }
+    std::size_t words() const { return static_cast<std::size_t>(channels()) * channel_words(); }
+    std::size_t bytes() const { return 4 * words(); }
 };
 
-inline FilmLayout film_layout(const Scene& scene, const AovPlan& aovs) {
-    return {sample_window(scene.film), aovs.channels, scene.integrator.second_moment,
+/// Of the film's crop.
+inline FilmLayout film_layout(const Film& film, const Integrator& integrator, const AovPlan& aovs) {
+    return {sample_window(film), aovs.channels, integrator.second_moment,
             !aovs.film_layers.empty()};
+}
+inline FilmLayout film_layout(const Scene& scene, const AovPlan& aovs) {
+    return film_layout(scene.film, scene.integrator, aovs);
 }
 
 } // namespace parhelion

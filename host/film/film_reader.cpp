@@ -1,7 +1,10 @@
 // What the film's sums say of each pixel: means, and how its samples spread.
 #include "host/film/film_reader.h"
 
+#include "host/parallel.h"
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace parhelion {
@@ -18,7 +21,8 @@ struct TileRange {
 
 } // namespace
 
-FilmReader::FilmReader(const std::vector<float>& film, const FilmLayout& layout, const Film& crop)
+FilmReader::FilmReader(std::span<const std::uint32_t> film, const FilmLayout& layout,
+                       const Film& crop)
     : film_(film), layout_(layout), crop_(crop), weights_(sums(result_weight)) {}
 
 template<class F>
@@ -39,26 +43,29 @@ void FilmReader::for_each_cell(int x, int y, F f) const {
 
 template<class T, class F>
 std::vector<T> FilmReader::each_pixel(F f) const {
-    std::vector<T> out;
-    out.reserve(static_cast<std::size_t>(crop_.crop_width) * crop_.crop_height);
-    for (int y = 0; y < crop_.crop_height; y++)
-        for (int x = 0; x < crop_.crop_width; x++)
-            out.push_back(static_cast<T>(f(x + crop_.crop_x, y + crop_.crop_y)));
+    const auto width = static_cast<std::size_t>(crop_.crop_width);
+    std::vector<T> out(width * static_cast<std::size_t>(crop_.crop_height));
+    parallel_for(static_cast<std::size_t>(crop_.crop_height), [&](std::size_t row) {
+        for (std::size_t i = row * width; i < (row + 1) * width; i++)
+            out[i] = static_cast<T>(f(static_cast<int>(i - row * width) + crop_.crop_x,
+                                      static_cast<int>(row) + crop_.crop_y, i));
+    });
     return out;
 }
 
-/// High and low part.
-double FilmReader::value(int channel, std::size_t cell) const {
-    std::size_t high = channel * layout_.stride() + cell;
-    return double{film_[high]} + film_[high + layout_.low_part()];
+TwoDoubles FilmReader::total(int channel, int x, int y) const {
+    TwoDoubles sum;
+    double whole = 0; // says what is infinite
+    for_each_cell(x, y, [&](std::size_t cell) {
+        const TwoDoubles v =
+            exact_value(&film_[channel * layout_.channel_words() + cell], layout_.stride());
+        sum = sum + v, whole += v.high;
+    });
+    return std::isfinite(whole) ? sum : TwoDoubles{whole, 0};
 }
 
 std::vector<double> FilmReader::sums(int channel) const {
-    return each_pixel<double>([&](int x, int y) {
-        double total = 0;
-        for_each_cell(x, y, [&](std::size_t cell) { total += value(channel, cell); });
-        return total;
-    });
+    return each_pixel<double>([&](int x, int y, std::size_t) { return total(channel, x, y).high; });
 }
 
 std::vector<float> FilmReader::means(int channel) const {
@@ -69,35 +76,21 @@ std::vector<float> FilmReader::means(int channel) const {
     return out;
 }
 
-/// Tiles join as groups of samples do on the device (spread_join).
-FilmReader::Spread FilmReader::spread(int color, int x, int y) const {
-    int first = layout_.spread_channel();
-    Spread all;
-    for_each_cell(x, y, [&](std::size_t cell) {
-        double weight = value(first + spread_weight, cell);
-        if (!(weight > 0)) return;
-        double apart = value(first + spread_mean_r + color, cell) - all.mean;
-        double share = weight / (all.weight + weight);
-        all.spread +=
-            value(first + spread_spread_r + color, cell) + apart * apart * all.weight * share;
-        all.mean += apart * share;
-        all.weight += weight;
-    });
-    return all;
-}
-
 std::vector<float> FilmReader::variances(int color) const {
-    std::vector<double> values = sums(result_r + color);
-    std::size_t i = 0;
-    return each_pixel<float>([&](int x, int y) {
-        double weight = weights_[i], value = values[i];
-        i++;
-        Spread s = spread(color, x, y);
-        double samples = weight * weight / s.weight;
+    const std::vector<double> values = sums(result_r + color);
+    const int squares = layout_.spread_channel() + spread_weight;
+    const int first = layout_.spread_channel() + spread_first_r + color;
+    const int second = layout_.spread_channel() + spread_second_r + color;
+    return each_pixel<float>([&](int x, int y, std::size_t i) {
+        const double weight = weights_[i], mean = values[i] / weight;
+        const TwoDoubles of_squares = total(squares, x, y);
+        const double samples = weight * weight / of_squares.high;
         if (!(samples > 1)) return std::numeric_limits<double>::quiet_NaN();
-        // The mean by squared weights is another one, unless all weights are 1.
-        double apart = weight == s.weight ? 0 : s.mean - value / weight;
-        return (s.spread / s.weight + apart * apart) * samples / (samples - 1);
+        const TwoDoubles twice{-2 * mean, 0};
+        const TwoDoubles spread = total(second, x, y) + twice * total(first, x, y) +
+                                  TwoDoubles{mean, 0} * TwoDoubles{mean, 0} * of_squares;
+        // It cannot be negative but for the rounding of groups.
+        return std::max(spread.high, 0.0) / of_squares.high * samples / (samples - 1);
     });
 }
 

@@ -1,8 +1,12 @@
 // What the film's sums say of each pixel: means, and how its samples spread.
 #pragma once
 
+#include "host/film/exact_value.h"
 #include "host/film/film_layout.h"
 
+#include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace parhelion {
@@ -12,7 +16,7 @@ namespace parhelion {
 class FilmReader {
 public:
     /// All must outlive the reader. `film` as the accumulate kernel leaves it.
-    FilmReader(const std::vector<float>& film, const FilmLayout& layout, const Film& crop);
+    FilmReader(std::span<const std::uint32_t> film, const FilmLayout& layout, const Film& crop);
 
     /// Sum over weight. 0 where there is no sample, or where filter weights cancel exactly.
     std::vector<float> means(int channel) const;
@@ -29,21 +33,16 @@ public:
     std::vector<float> sample_counts() const;
 
 private:
-    struct Spread {
-        double weight = 0, mean = 0, spread = 0;
-    };
-
     /// Calls f with the index into a channel of each cell that is part of a pixel.
     template<class F>
     void for_each_cell(int x, int y, F f) const;
-    double value(int channel, std::size_t cell) const;
     std::vector<double> sums(int channel) const;
-    Spread spread(int color, int x, int y) const;
-    /// One value a pixel: f(x, y), in pixels of the full film.
+    TwoDoubles total(int channel, int x, int y) const;
+    /// One value a pixel: f(x, y, i), x and y in pixels of the full film, i counted in the crop.
     template<class T, class F>
     std::vector<T> each_pixel(F f) const;
 
-    const std::vector<float>& film_;
+    std::span<const std::uint32_t> film_;
     const FilmLayout& layout_;
     const Film& crop_;
     std::vector<double> weights_;

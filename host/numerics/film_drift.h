@@ -2,7 +2,7 @@
 // test suite with 1e6 to 1e7 of them, for a full run of the catalogue with 1e9.
 #pragma once
 
-#include "host/numerics/measure.h"
+#include "host/numerics/exact_sum.h"
 
 #include <algorithm>
 #include <functional>
@@ -39,8 +39,8 @@ struct FilmDrift {
 /// Adds `count` samples of weight 1 as the accumulate kernel does.
 inline FilmDrift film_drift(const FilmFeed& feed, std::int64_t count, std::uint64_t seed = 1) {
     Random random(seed);
-    f32::TwoReal sum{0, 0}, weight{0, 0};
-    f32::Spread spread{{0, 0}, {0, 0}};
+    ExactSum sum;
+    ExactSpread spread;
     long double about = 0, squares = 0, size = 0; // the truth: sums of what differs from near
     float group[FILM_SAMPLES];
     for (std::int64_t begin = 0; begin < count; begin += FILM_SAMPLES) {
@@ -59,19 +59,19 @@ inline FilmDrift film_drift(const FilmFeed& feed, std::int64_t count, std::uint6
             float d = group[k] - g.centre;
             g.first += d, g.second += d * d;
         }
-        sum = f32::film_sum(sum, added);
-        spread = f32::spread_join(spread, weight.high, g);
-        weight = f32::film_sum(weight, {g.weight, 0});
+        sum.add(added);
+        spread.add(g);
     }
     long double n = count, mean = feed.near + about / n,
                 variance = (squares - about * about / n) / n;
-    auto value = [](f32::TwoReal x) { return (long double)x.high + x.low; };
+    const double weight = spread.weight.value().high;
     auto relative = [](long double error, long double of) {
         return static_cast<double>(std::abs(of > 0 ? error / of : error));
     };
-    return {relative(value(sum) / value(weight) - mean, size / n),
-            relative(value(spread.mean) - mean, size / n),
-            relative(value(spread.spread) / value(weight) - variance, variance)};
+    const double found = sum.value().high / weight;
+    return {relative(found - mean, size / n),
+            relative(spread.first.value().high / weight - mean, size / n),
+            relative(spread.about(found) / weight - variance, variance)};
 }
 
 } // namespace parhelion::numerics

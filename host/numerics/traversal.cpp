@@ -196,7 +196,7 @@ void Traversal::run_on_device(const Program& program, Stage stage, const RayLayo
     buffers.statistics =
         device_copy(d, "statistics", std::vector<ulong>(statistic_count * layout.segments));
     cl::Kernel kernel = program.kernel(stage_names[static_cast<std::size_t>(stage)]);
-    bind_arguments(kernel, device_->buffers, buffers, Buffer<float>(), params(layout));
+    bind_arguments(kernel, device_->buffers, buffers, Buffer<cl_uint>(), params(layout));
     kernel.setArg(wave_argument, WaveParams{});
     kernel.setArg(depth_argument, 1);
     d.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(layout.segments),

@@ -3,6 +3,7 @@
 
 #include "host/clock.h"
 #include "host/error.h"
+#include "host/film/film_bands.h"
 #include "host/film/film_image.h"
 #include "host/flatten/scene_features.h"
 #include "host/waves/device_waves.h"
@@ -11,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace parhelion {
@@ -32,18 +34,20 @@ int stream_count(const WorkSplit& split, const Device& device) {
                : 1;
 }
 
-/// Told before anything is rendered: systems give out memory that they do not have, and end the
-/// program when it is used.
-void check_film_memory(const Scene& scene, const FilmLayout& layout, const Device& device) {
-    double film = static_cast<double>(layout.floats()) * sizeof(float);
-    // A CPU's memory holds what is read from the film, too.
-    double needed = device.is_cpu ? 2.0 * film : film;
-    if (needed <= static_cast<double>(device.memory_bytes)) return;
+/// What the film may take at once: a buffer of the device, and no more than a quarter of all.
+std::size_t film_bytes_at_once(const Device& device) {
+    return static_cast<std::size_t>(std::min(device.max_allocation_bytes, device.memory_bytes / 4));
+}
+
+/// Told before anything is rendered: one row of blocks that is more than the device holds.
+void check_film_memory(const Scene& scene, const FilmLayout& band, const Device& device) {
+    if (band.bytes() <= device.max_allocation_bytes) return;
     throw InputError(fmt::format(
-        "{}: a film of {} x {} pixels and {} channels takes {:.1f} GB; {} has {:.1f} GB (accepted: "
-        "a smaller --size, or a part of it, --crop)",
-        scene.file, scene.film.crop_width, scene.film.crop_height, layout.channels(), needed / 1e9,
-        device.name, static_cast<double>(device.memory_bytes) / 1e9));
+        "{}: {} rows of a film of {} pixels a row and {} channels take {:.1f} GB; {} has {:.1f} GB "
+        "at once (accepted: a smaller --size, or a part of it, --crop)",
+        scene.file, BLOCK_SIDE, scene.film.crop_width, band.channels(),
+        static_cast<double>(band.bytes()) / 1e9, device.name,
+        static_cast<double>(device.max_allocation_bytes) / 1e9));
 }
 
 DeviceWaves compiled(RenderDevice& device, const DeviceScene& flat, const RenderOptions& options,
@@ -132,29 +136,38 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
     report.tracing_lanes = device.device.tracing_lanes(options.lanes);
     WorkSplit split = options.split;
     split.streams = options.checked ? 1 : stream_count(split, device.device);
-    WorkSizes sizes =
-        work_sizes(film_layout(scene, aovs), scene.sampler.samples_per_pixel, report.lanes, split);
-    check_film_memory(scene, sizes.film, device.device);
+    const std::vector<Film> bands =
+        film_bands(scene.film, scene.integrator, aovs, film_bytes_at_once(device.device));
+    check_film_memory(scene, film_layout(bands.front(), scene.integrator, aovs), device.device);
 
     DeviceScene flat = flattened(scene, options.light_choice, progress, report);
     DeviceWaves waves = compiled(device, flat, options, progress, report);
     auto start = Clock::now();
-    RenderParams params = render_params(scene, flat, sizes, aovs);
     waves.upload(flat);
-    waves.allocate(sizes, params);
     report.upload_seconds = seconds_since(start);
 
     progress.start("rendering");
     start = Clock::now();
-    trace_film(std::span(waves.streams()), sizes, scene.sampler.samples_per_pixel,
-               wave_loop(sizes, params, flat.features.on()), progress);
-    if (options.checked) check_bounds(waves);
+    Share share{0, 0};
+    for (const Film& band : bands) {
+        const FilmLayout layout = film_layout(band, scene.integrator, aovs);
+        const WorkSizes sizes =
+            work_sizes(layout, scene.sampler.samples_per_pixel, report.lanes, split);
+        const RenderParams params = render_params(scene, flat, sizes, aovs);
+        waves.allocate(sizes, params);
+        share.before += share.whole;
+        share.whole = static_cast<double>(band.crop_height) / scene.film.crop_height;
+        trace_film(std::span(waves.streams()), sizes, scene.sampler.samples_per_pixel,
+                   wave_loop(sizes, params, flat.features.on()), progress, share);
+        if (options.checked) check_bounds(waves);
+        append_band(result.image,
+                    film_image(waves.film_view(), layout, band, scene, aovs, flat.frame));
+    }
     report.render_seconds = seconds_since(start);
     report_of(waves, report);
     progress.finish(fmt::format("{:.2f} Mpaths/s, {:.2f} Mrays/s",
                                 static_cast<double>(report.paths) / report.render_seconds / 1e6,
                                 static_cast<double>(report.rays()) / report.render_seconds / 1e6));
-    result.image = film_image(waves.read_film(), sizes.film, scene, aovs, flat.frame);
     return result;
 }
 

@@ -16,20 +16,6 @@
 namespace parhelion {
 namespace {
 
-/// As the accumulate kernel leaves it in single precision: sums and their rounding errors, which
-/// together have 48 bits.
-std::vector<float> film_floats(std::vector<float> film) { return film; }
-std::vector<float> film_floats(const std::vector<double>& film) {
-    std::vector<float> floats(film.size());
-    std::size_t half = film.size() / 2;
-    for (std::size_t i = 0; i < half; i++) {
-        double sum = film[i] + film[half + i];
-        floats[i] = static_cast<float>(sum);
-        floats[half + i] = static_cast<float>(sum - floats[i]);
-    }
-    return floats;
-}
-
 template<class Real>
 void render_flat(const Scene& scene, const DeviceScene& flat, const RenderOptions& options,
                  Progress& progress, RenderResult& result) {
@@ -48,8 +34,7 @@ void render_flat(const Scene& scene, const DeviceScene& flat, const RenderOption
     result.report.render_seconds = seconds_since(start);
     add_counts(memory.statistics, result.report);
     result.report.bad_samples = first_bad_samples({memory.bad_samples});
-    result.image =
-        film_image(film_floats(std::move(memory.film)), sizes.film, scene, aovs, flat.frame);
+    result.image = film_image(memory.film, sizes.film, scene.film, scene, aovs, flat.frame);
 }
 
 } // namespace

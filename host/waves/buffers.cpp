@@ -30,7 +30,7 @@ std::size_t WaveBuffers::bytes() const {
 }
 
 void bind_arguments(cl::Kernel& kernel, const SceneBuffers& scene, const WaveBuffers& work,
-                    const Buffer<float>& film, const RenderParams& params) {
+                    const Buffer<cl_uint>& film, const RenderParams& params) {
     cl_uint argument = 0;
 #define BIND_SCENE(type, name) kernel.setArg(argument++, scene.name.handle());
 #define BIND_WAVE(type, name) kernel.setArg(argument++, work.name.handle());
@@ -41,7 +41,7 @@ void bind_arguments(cl::Kernel& kernel, const SceneBuffers& scene, const WaveBuf
 }
 
 void bind_bounds(cl::Kernel& kernel, const SceneBuffers& scene, const WaveBuffers& work,
-                 const Buffer<float>& film, const Buffer<cl_uint>& outside) {
+                 const Buffer<cl_uint>& film, const Buffer<cl_uint>& outside) {
 #define SCENE_SIZE(type, name) scene.name.bytes(),
 #define WAVE_SIZE(type, name) work.name.bytes(),
     kernel.setArg(sizes_argument,

@@ -29,12 +29,12 @@ WaveBuffers wave_buffers(const cl::Context& context, const cl::CommandQueue& que
 
 /// Binds buffers and parameters, all but the wave and the depth.
 void bind_arguments(cl::Kernel& kernel, const SceneBuffers& scene, const WaveBuffers& work,
-                    const Buffer<float>& film, const RenderParams& params);
+                    const Buffer<cl_uint>& film, const RenderParams& params);
 
 /// Likewise the sizes of the buffers and where to tell of one that is left, of a checked kernel
 /// (kernels/device/bounds.h).
 void bind_bounds(cl::Kernel& kernel, const SceneBuffers& scene, const WaveBuffers& work,
-                 const Buffer<float>& film, const Buffer<cl_uint>& outside);
+                 const Buffer<cl_uint>& film, const Buffer<cl_uint>& outside);
 
 /// What a checked kernel tells: the name of the buffer that it has left; null for 0, none.
 const char* buffer_left(cl_uint told);

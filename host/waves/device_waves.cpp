@@ -12,23 +12,28 @@ void DeviceWaves::upload(const DeviceScene& scene) {
 }
 
 void DeviceWaves::allocate(const WorkSizes& s, const RenderParams& params) {
-    film_ = {device_.context, "film", buffer_counts(s).film};
-    film_.fill_zero(device_.queue);
-    device_.queue.finish();
+    keep_accounts();
+    streams_.clear();
+    film_ = {};
+    film_ = Buffer<cl_uint>::zeros(device_.context, device_.queue, "film", buffer_counts(s).film);
     for (int i = 0; i < s.streams; i++) {
         streams_.emplace_back(device_, stages_, s);
         streams_.back().bind(scene_, film_, params);
     }
 }
 
-std::vector<float> DeviceWaves::read_film() {
-    std::vector<float> film(film_.count());
-    film_.read(device_.queue, film.data());
-    return film;
+void DeviceWaves::keep_accounts() {
+    for (WaveStream& stream : streams_) {
+        std::vector<ulong> of_stream = stream.read_statistics();
+        statistics_.insert(statistics_.end(), of_stream.begin(), of_stream.end());
+        for (std::size_t i = 0; i < stage_count; i++)
+            times_[i] += stream.stage_times()[i];
+    }
+    bad_samples_ = read_bad_samples();
 }
 
 std::vector<ulong> DeviceWaves::read_statistics() {
-    std::vector<ulong> all;
+    std::vector<ulong> all = statistics_;
     for (WaveStream& stream : streams_) {
         std::vector<ulong> of_stream = stream.read_statistics();
         all.insert(all.end(), of_stream.begin(), of_stream.end());
@@ -40,16 +45,21 @@ std::vector<BadSample> DeviceWaves::read_bad_samples() {
     std::vector<std::vector<int>> of_streams;
     for (WaveStream& stream : streams_)
         of_streams.push_back(stream.read_bad_samples());
-    return first_bad_samples(of_streams);
+    std::vector<BadSample> all = first_bad_samples(of_streams);
+    all.insert(all.end(), bad_samples_.begin(), bad_samples_.end());
+    return first_of(std::move(all));
 }
 
 std::vector<StageReport> DeviceWaves::stage_reports() const {
-    std::vector<StageReport> reports = stages_.reports;
+    std::array<StageTime, stage_count> times = times_;
     for (const WaveStream& stream : streams_)
-        for (std::size_t i = 0; i < stage_count; i++) {
-            reports[i].kernel_seconds += stream.stage_times()[i].kernel_seconds;
-            reports[i].launches += stream.stage_times()[i].launches;
-        }
+        for (std::size_t i = 0; i < stage_count; i++)
+            times[i] += stream.stage_times()[i];
+    std::vector<StageReport> reports = stages_.reports;
+    for (std::size_t i = 0; i < stage_count; i++) {
+        reports[i].kernel_seconds += times[i].kernel_seconds;
+        reports[i].launches += times[i].launches;
+    }
     return reports;
 }
 

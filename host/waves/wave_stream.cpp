@@ -17,11 +17,11 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
     counts_.resize(work_.counts.count());
 }
 
-void WaveStream::bind(const SceneBuffers& scene, const Buffer<float>& film,
+void WaveStream::bind(const SceneBuffers& scene, const Buffer<cl_uint>& film,
                       const RenderParams& params) {
     for (std::size_t stage = 0; stage < stage_count; stage++) {
         bool writes_film = static_cast<Stage>(stage) == Stage::accumulate;
-        const Buffer<float>& of_stage = writes_film ? film : no_film_;
+        const Buffer<cl_uint>& of_stage = writes_film ? film : no_film_;
         bind_arguments(kernels_[stage], scene, work_, of_stage, params);
         if (checked_) bind_bounds(kernels_[stage], scene, work_, of_stage, outside_);
         kernels_[stage].setArg(depth_argument, 0);

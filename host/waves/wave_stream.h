@@ -14,6 +14,11 @@ namespace parhelion {
 struct StageTime {
     double kernel_seconds = 0;
     std::size_t launches = 0;
+
+    StageTime& operator+=(const StageTime& other) {
+        kernel_seconds += other.kernel_seconds, launches += other.launches;
+        return *this;
+    }
 };
 
 /// A WaveDevice. Streams of one render may be used by a thread each.
@@ -22,7 +27,7 @@ public:
     WaveStream(const RenderDevice& device, const StagePrograms& programs, const WorkSizes& sizes);
 
     /// Binds buffers and parameters to every kernel.
-    void bind(const SceneBuffers& scene, const Buffer<float>& film, const RenderParams& params);
+    void bind(const SceneBuffers& scene, const Buffer<cl_uint>& film, const RenderParams& params);
 
     void begin_wave(const WaveParams& wave);
     void launch(Stage stage, int depth, int work_items);
@@ -49,7 +54,7 @@ private:
     WaveBuffers work_;
     /// Bound where a stage leaves the film alone, or the driver would let streams wait for each
     /// other.
-    Buffer<float> no_film_;
+    Buffer<cl_uint> no_film_;
     Buffer<cl_uint> outside_; ///< of checked kernels
     bool checked_;
     int work_group_size_;

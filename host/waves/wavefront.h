@@ -60,11 +60,18 @@ void trace_wave(Device& device, const WaveParams& wave, const WaveLoop& loop) {
     device.end_wave();
 }
 
+/// Which part of a picture's work a film is.
+struct Share {
+    double before = 0, whole = 1; ///< of all: what is done already, and what the film adds
+
+    double at(double done) const { return before + whole * done; }
+};
+
 /// All waves of a film. A host thread for each of several devices: while one waits for the last
 /// work-items of a stage, the other's are there to be done.
 template<WaveDevice Device>
 void trace_film(std::span<Device> devices, const WorkSizes& sizes, int samples,
-                const WaveLoop& loop, Progress& progress) {
+                const WaveLoop& loop, Progress& progress, Share share = {}) {
     auto start = Clock::now();
     int blocks = static_cast<int>(sizes.film.window.tiles());
     double paths = static_cast<double>(samples) * blocks * BLOCK_PIXELS;
@@ -77,7 +84,7 @@ void trace_film(std::span<Device> devices, const WorkSizes& sizes, int samples,
                 std::scoped_lock lock(showing);
                 double done = schedule.finish(*wave);
                 double rate = done * paths / seconds_since(start) / 1e6;
-                progress.update(done, fmt::format("{:.3f} Mpaths/s", rate));
+                progress.update(share.at(done), fmt::format("{:.3f} Mpaths/s", rate));
             }
         } catch (...) {
             schedule.give_up();

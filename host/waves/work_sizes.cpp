@@ -59,7 +59,7 @@ BufferCounts buffer_counts(const WorkSizes& s) {
             // Of segments, and in accumulate of blocks.
             .statistics = statistic_count * std::max(segments, blocks),
             .bad_samples = bad_sample_field_count * s.film.window.tiles(),
-            .film = s.film.floats()};
+            .film = s.film.words()};
 }
 
 } // namespace parhelion

@@ -47,12 +47,12 @@
 //   counts        2 a segment: live paths, shadow rays
 //   statistics    STATISTICS and FAULTS a segment
 //   bad_samples   BAD_SAMPLE_FIELDS a block of the film: its first sample that was not finite
-//   film          2 floats (high and low part of a sum) x FILM_CHANNELS x film_stride; a channel
+//   film          FILM_CHANNELS x EXACT_WORDS x film_stride: the digits of sums (exact_sum.h); each
 //                 holds a tile a block
 #define WAVE_BUFFERS(X)                                                                            \
     X(float, path_state) X(float, shadow_state) X(float, results)                                  \
     X(int, counts) X(ulong, statistics) X(int, bad_samples)
-#define WORK_BUFFERS(X) WAVE_BUFFERS(X) X(float, film)
+#define WORK_BUFFERS(X) WAVE_BUFFERS(X) X(uint, film)
 
 // The lists of states: type of a field in a lane, name, whether anything needs it.
 
@@ -77,9 +77,8 @@
 // What a path slot gathers, and the film sums up.
 #define RESULT_FIELDS(X) X(float, r) X(float, g) X(float, b) X(float, alpha) X(float, weight)
 
-// With g the square of a sample's weight: sum of g; and of r, g, b each mean (sum of g x / sum of g) and spread (sum of
-// g (x - mean)^2).
-#define SPREAD_CHANNELS(X) X(weight) X(mean_r) X(mean_g) X(mean_b) X(spread_r) X(spread_g) X(spread_b)
+// With g the square of a sample's weight: sum of g; and of r, g, b each sums of g x and g x^2.
+#define SPREAD_CHANNELS(X) X(weight) X(first_r) X(first_g) X(first_b) X(second_r) X(second_g) X(second_b)
 
 // Channels of results and film, behind each other: RESULT_FIELDS, `aovs` channels of AOVs; then of results, if
 // HAS(filter_splatting), the sample's offset from the centre of its pixel, x and y; of the film, if HAS(moments), the squares of

@@ -15,6 +15,7 @@
 // Work is done in Reals: the float of the list of work buffers stands for one lane of them.
 #define WORK_float Scalar
 #define WORK_int int
+#define WORK_uint uint
 #define WORK_ulong ulong
 #define WORK_PARAMETER(type, name) global WORK_##type *restrict name,
 #define KERNEL_PARAMETERS                                                                          \

@@ -1,23 +1,34 @@
 // The film: what a group of finished samples adds to it, and which samples are left out.
 
-/// The film of one block: a tile of every channel, the high parts of their sums and behind all of
-/// those the low ones.
+/// The film of one block: a tile of every digit of every channel.
 typedef struct {
-    global Scalar *high, *low;
-    long stride;  // floats between two channels
+    global uint* digits;
+    long stride;  // words between two digits
     int channels; // of sums; those of spreads follow
 } FilmTile;
 
-FN TwoReal film_load(FilmTile film, long at) {
-    return two_real(LOAD_REAL(film.high + at), LOAD_REAL(film.low + at));
+/// Adds singles to the sums of a packet of cells. Digits below and above those that change are left
+/// alone: pages of which none has ever changed take no memory on a CPU.
+FN void film_add_single(FilmTile film, int channel, int cell, Real v) {
+    ExactPart part = exact_part(v);
+    int lowest = lowestLaneInt(sel(v == R(0.), (Int)EXACT_WORDS, part.word));
+    Uint carry = (Uint)0u;
+    for (int k = lowest; k < EXACT_WORDS; k++) {
+        global uint* digits = film.digits + (channel * EXACT_WORDS + k) * film.stride + cell;
+        ExactDigit sum = exact_digit(part, k, LOAD_UINT(digits), carry);
+        STORE_UINT(digits, sum.digit);
+        carry = sum.carry;
+        if (!someLane(exact_goes_on(part, k, carry))) return;
+    }
 }
-FN void film_store(FilmTile film, long at, TwoReal v) {
-    STORE_REAL(film.high + at, v.high);
-    STORE_REAL(film.low + at, v.low);
-}
-FN void film_add(FilmTile film, int channel, int cell, TwoReal v) {
-    long at = channel * film.stride + cell;
-    film_store(film, at, film_sum(film_load(film, at), v));
+
+/// Adds v, whatever its precision.
+FN void film_add(FilmTile film, int channel, int cell, Real v) {
+    for (int part = 0; part < (int)SINGLES_IN_REAL; part++) {
+        Real single = singleR(v);
+        film_add_single(film, channel, cell, single);
+        v = sel(finiteR(single), v - single, R(0.));
+    }
 }
 
 /// What the samples of a block have gathered.
@@ -72,12 +83,23 @@ FN Real group_value(BlockResults block, const SampleGroup* g, int channel, int n
     return sel(lanesOf(g->good[n]), block_result(block, channel, g->slot[n]), R(0.));
 }
 
+/// Adds samples of a group one by one in the lanes where their sum is more than a Real holds.
+FN_APART void add_huge(BlockResults block, const SampleGroup* g, int channel, FilmTile film,
+                       int cell, Mask huge) {
+    for (int n = 0; n < g->count; n++)
+        film_add(film, channel, cell,
+                 sel(huge, group_value(block, g, channel, n) * g->weight[n], R(0.)));
+}
+
 /// Adds a group to the pixels its samples lie in.
 FN void add_group(BlockResults block, const SampleGroup* g, FilmTile film, int part) {
     for (int channel = 0; channel < film.channels; channel++) {
         TwoReal sum = two_real(R(0.), R(0.));
         for (int n = 0; n < g->count; n++)
             sum = group_add(sum, group_value(block, g, channel, n) * g->weight[n]);
-        film_add(film, channel, part * LANES, sum);
+        Mask fits = finiteR(sum.high);
+        if (RARELY(someLane(!fits))) add_huge(block, g, channel, film, part * LANES, !fits);
+        film_add(film, channel, part * LANES, sel(fits, sum.high, R(0.)));
+        film_add(film, channel, part * LANES, sel(fits, sum.low, R(0.)));
     }
 }

@@ -3,20 +3,13 @@
 // A sample counts by the square of its weight, as it does in the variance of a weighted mean. Each
 // group is measured about a centre near its own mean, in a second pass over its samples.
 
-/// The film's cells for one colour of a packet of pixels.
-FN void film_join(FilmTile film, int color, int cell, Real weight_before, GroupSpread g) {
-    long mean = (film.channels + spread_mean_r + color) * film.stride + cell;
-    long spread = (film.channels + spread_spread_r + color) * film.stride + cell;
-    Spread s;
-    s.mean = film_load(film, mean);
-    s.spread = film_load(film, spread);
-    s = spread_join(s, weight_before, g);
-    film_store(film, mean, s.mean);
-    film_store(film, spread, s.spread);
-}
-
-FN Real film_weight_before(FilmTile film, int cell) {
-    return LOAD_REAL(film.high + (film.channels + spread_weight) * film.stride + cell);
+/// A group's share of the sums for one colour of a packet of pixels.
+FN void film_join(FilmTile film, int color, int cell, GroupSpread g) {
+    SpreadTerms terms = spread_terms(g);
+    for (int k = 0; k < SPREAD_TERMS_FIRST; k++)
+        film_add(film, film.channels + spread_first_r + color, cell, terms.first[k]);
+    for (int k = 0; k < SPREAD_TERMS_SECOND; k++)
+        film_add(film, film.channels + spread_second_r + color, cell, terms.second[k]);
 }
 
 /// A mean to measure about; any number where there is no weight.
@@ -30,7 +23,6 @@ FN void join_group(const SampleGroup* g, FilmTile film, int part) {
     Real squares[FILM_SAMPLES];
     GroupSpread spread;
     int cell = part * LANES;
-    Real before = film_weight_before(film, cell);
     spread.weight = R(0.);
     for (int n = 0; n < g->count; n++) {
         squares[n] = square(g->weight[n]);
@@ -48,9 +40,9 @@ FN void join_group(const SampleGroup* g, FilmTile film, int part) {
             spread.first = spread.first + weighted;
             spread.second = fmaR(weighted, d, spread.second);
         }
-        film_join(film, color, cell, before, spread);
+        film_join(film, color, cell, spread);
     }
-    film_add(film, film.channels + spread_weight, cell, two_real(spread.weight, R(0.)));
+    film_add(film, film.channels + spread_weight, cell, spread.weight);
 }
 
 #define TILE_PACKETS (TILE_CELLS(FILTER_REACH_LIMIT) / LANES)
@@ -121,9 +113,9 @@ FN void splat_spreads(BlockResults block, const SampleGroup* groups, global cons
             g.centre = tile.centre[k];
             g.first = tile.first[k];
             g.second = tile.second[k];
-            film_join(film, color, k * LANES, film_weight_before(film, k * LANES), g);
+            film_join(film, color, k * LANES, g);
         }
     }
     for (int k = 0; k < cells; k++)
-        film_add(film, film.channels + spread_weight, k * LANES, two_real(tile.weight[k], R(0.)));
+        film_add(film, film.channels + spread_weight, k * LANES, tile.weight[k]);
 }

@@ -5,7 +5,9 @@
 
 #define LOAD_REAL(p) AT(global const Real, p, 0)
 #define LOAD_INT(p) AT(global const Int, p, 0)
+#define LOAD_UINT(p) AT(global const Uint, p, 0)
 #define STORE_REAL(p, v) (AT(global Real, p, 0) = (v))
+#define STORE_UINT(p, v) (AT(global Uint, p, 0) = (v))
 #define STORE_INT(p, v) (AT(global Int, p, 0) = (v))
 
 typedef union {

@@ -114,6 +114,6 @@ FN void splat_groups(BlockResults block, const SampleGroup* groups, global const
             tile_splat((Scalar*)tile, reach, part, values, weights[part].of, count);
         }
         for (int k = 0; k < cells; k++)
-            film_add(film, channel, k * LANES, two_real(tile[k], R(0.)));
+            film_add(film, channel, k * LANES, tile[k]);
     }
 }

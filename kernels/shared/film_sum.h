@@ -1,51 +1,52 @@
-// What the film adds up: sums and variances that stay right over 1e9 samples of a pixel.
-//
-// Samples come in groups (FILM_SAMPLES): of a group sums are short, and what is added to the film
-// is as seldom as that.
+// What a group of samples adds to the film (FILM_SAMPLES of them): of the groups of a pixel the
+// film keeps sums without error (exact_sum.h), so that neither their number nor their order
+// matters.
 
-/// sum + v for a group: the rounding errors of a few additions may add up on their own. (Of many
-/// they may not: a plain sum of them stops growing, as any does.)
+/// sum + v for a group: the rounding errors of a few additions may add up on their own.
 FN TwoReal group_add(TwoReal sum, Real v) {
     TwoReal s = two_difference(sum.high, -v);
     return two_real(s.high, sum.low + s.low);
 }
 
-/// A group's sum joins those before it, within 2^-46 of the result where both have the same sign
-/// (Joldes, Muller and Popescu 2017, algorithm 5: 3 u^2).
-FN TwoReal film_sum(TwoReal sum, TwoReal group) {
-    return two_add(sum, two_quick_sum(group.high, group.low));
-}
-
-/// How samples x of weights g spread, as the film keeps it; the sum of g is kept beside it.
-typedef struct {
-    TwoReal mean;   // sum of g x / sum of g
-    TwoReal spread; // sum of g (x - mean)^2
-} Spread;
-
-/// The same of a group of samples, about any centre among them: d = x - centre.
+/// How the samples x of a group spread, g being the squares of their weights, about any centre
+/// among them: d = x - centre.
 typedef struct {
     Real weight; // sum of g
     Real centre;
     Real first, second; // sums of g d and g d^2
 } GroupSpread;
 
-/// A group joins those before it, whose weights add up to weight_before (Chan, Golub and LeVeque
-/// 1979): everything that is added to the spread is positive, so nothing cancels, however small it
-/// is beside the mean. A group of no weight changes nothing.
-FN Spread spread_join(Spread s, Real weight_before, GroupSpread g) {
-    Mask some = g.weight > R(0.);
-    Real weight = sel(some, g.weight, R(1.));
-    Real offset = g.first / weight; // of the group's mean from its centre
-    // About its own mean; it cannot be negative but for rounding.
-    Real inside = maxR(g.second - offset * g.first, R(0.));
-    TwoReal apart = two_difference(g.centre, s.mean.high);
-    apart = two_quick_sum(apart.high, apart.low + (offset - s.mean.low));
-    Real share = weight / (weight_before + weight);
-    Real between = square(apart.high) * (weight_before * share);
-    TwoReal mean = two_add(s.mean, two_multiply(apart, two_real(share, R(0.))));
-    TwoReal spread = film_sum(s.spread, two_real(inside + between, R(0.)));
-    Spread r;
-    r.mean = two_real(sel(some, mean.high, s.mean.high), sel(some, mean.low, s.mean.low));
-    r.spread = two_real(sel(some, spread.high, s.spread.high), sel(some, spread.low, s.spread.low));
-    return r;
+#define SPREAD_TERMS_FIRST 3
+#define SPREAD_TERMS_SECOND 7
+/// Sums of g x and of g x^2, unevaluated: their terms add up to them without error,
+///
+///     sum of g x   = first + centre weight
+///     sum of g x^2 = second + 2 centre first + centre^2 weight,
+///
+/// so that what is lost of a group's own sums is relative to how it spreads, not to how large its
+/// values are.
+typedef struct {
+    Real first[SPREAD_TERMS_FIRST], second[SPREAD_TERMS_SECOND];
+} SpreadTerms;
+
+FN SpreadTerms spread_terms(GroupSpread g) {
+    TwoReal moved = two_product(g.centre, g.weight),
+            across = two_product(g.centre, g.first + g.first);
+    TwoReal square = two_product(g.centre, g.centre);
+    TwoReal high = two_product(square.high, g.weight), low = two_product(square.low, g.weight);
+    SpreadTerms t;
+    t.first[0] = g.first;
+    t.first[1] = moved.high, t.first[2] = moved.low;
+    t.second[0] = g.second;
+    t.second[1] = across.high, t.second[2] = across.low;
+    t.second[3] = high.high, t.second[4] = high.low;
+    t.second[5] = low.high, t.second[6] = low.low;
+    // Squares reach the end of single precision long before values do: what passes it is infinite
+    // as a whole.
+    Mask fits = finiteR(high.high) & finiteR(across.high) & finiteR(g.second);
+    for (int k = 0; k < SPREAD_TERMS_FIRST; k++)
+        t.first[k] = sel(fits, t.first[k], R(0.));
+    for (int k = 0; k < SPREAD_TERMS_SECOND; k++)
+        t.second[k] = sel(fits, t.second[k], k == 0 ? (Real)LANE_INFINITY : R(0.));
+    return t;
 }

@@ -178,6 +178,18 @@ FN Real powerOfTwoBelow(Real x) { return asReal(asUint(x) & 0x7f800000u); }
 FN Real scale_by_power_of_two(Real x, Int n) { return asReal(asInt(x) + n * 8388608); }
 /// n with x 2^-n in [sqrt(1/2), sqrt(2)); x > 0, normal and finite.
 FN Int nearestPowerOfTwo(Real x) { return (asInt(x) - 0x3f3504f3) >> 23; }
+#define SINGLES_IN_REAL 1
+FN Real singleR(Real x) { return x; }
+/// The value of the lowest bit of a single's significand is 2^(this - 149).
+FN Int lowestPlace(Real x) {
+    Int exponent = asInt(asUint(x) >> 23 & 255u);
+    return exponent > 0 ? exponent - 1 : (Int)0;
+}
+/// The 24 bits of a single; 2^23 of an infinite one.
+FN Uint significand(Real x) {
+    Uint fraction = asUint(x) & 0x7fffffu;
+    return (asUint(x) & 0x7f800000u) != 0u ? fraction | 0x800000u : fraction;
+}
 
 #else
 // ------------------------------------------------------------------------------------------------------
@@ -213,6 +225,17 @@ FN Real scale_by_power_of_two(Real x, Int n) { return std::ldexp(x, n); }
 FN Int nearestPowerOfTwo(Real x) {
     Int below = std::ilogb(x);
     return below + (std::ldexp(x, -below) >= R(1.41421354));
+}
+#define SINGLES_IN_REAL (sizeof(Real) == sizeof(float) ? 1 : 3)
+FN Real singleR(Real x) { return (float)x; }
+FN Int lowestPlace(Real x) {
+    if (x == 0 || !std::isfinite(x)) return 0;
+    Int place = std::ilogb(x) + (149 - 23);
+    return place > 0 ? place : 0;
+}
+FN Uint significand(Real x) {
+    if (!std::isfinite(x)) return 0x800000u;
+    return (Uint)std::ldexp(std::fabs(x), 149 - lowestPlace(x));
 }
 FN Mask signsDiffer(Real a, Real b) { return std::signbit(a) != std::signbit(b); }
 FN Real flipSign(Real a, Real b) { return std::signbit(b) ? -a : a; }

@@ -11,6 +11,7 @@
 #include "shared/sampler.h"
 
 #include "shared/error_function.h"
+#include "shared/exact_sum.h"
 #include "shared/faure.h"
 #include "shared/film_sum.h"
 #include "shared/fresnel.h"

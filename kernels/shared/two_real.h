@@ -31,6 +31,12 @@ FN TwoReal two_quick_sum(Real a, Real b) {
     return two_real(high, b - (high - a));
 }
 
+/// a * b, exact unless it overflows or its low part is below the least normal number.
+FN TwoReal two_product(Real a, Real b) {
+    Real high = a * b;
+    return two_real(high, fmaR(a, b, -high));
+}
+
 FN TwoReal two_scale(TwoReal a, Real power_of_two) {
     return two_real(a.high * power_of_two, a.low * power_of_two);
 }

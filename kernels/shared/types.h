@@ -274,7 +274,7 @@ LAYOUT(CameraRecord, 120);
     X(int, filter_reach)                      /* pixels on each side that a sample counts for */    \
     X(int, state_stride)                      /* floats between two fields of the path state */     \
     X(int, result_stride)                     /* floats between two channels of the results */     \
-    X(int, film_stride)                       /* floats between two channels of the film */        \
+    X(int, film_stride)                       /* words between two digits of the film */           \
     X(int, segment_size)                      /* path slots owned by one work-item */               \
     X(int, segment_stride)                    /* their entries in the path state, with padding */   \
     X(int, aov_channels)                                                                           \
@@ -309,10 +309,10 @@ LAYOUT(WaveParams, 16);
 #define TILE_SIDE(reach) (BLOCK_SIDE + 2 * (reach))
 #define TILE_CELLS(reach) ((TILE_SIDE(reach) * TILE_SIDE(reach) + 15) / 16 * 16)
 
-// So many samples of a block are added up before the film gets their sum: waves hold a multiple of them.
+// So many samples of a block are added up before the film gets their sum: waves hold a multiple of them. Digits of a sum there
+// (exact_sum.h), and intervals a pixel of a filter's tabulated values; between them they are interpolated.
 #define FILM_SAMPLES 16
-
-// Intervals a pixel of a filter's tabulated values; between them they are interpolated.
+#define EXACT_WORDS 10
 #define FILTER_INTERVALS 1024
 
 // clang-format on

@@ -23,8 +23,7 @@ TEST_CASE("Film: a spread does not depend on the centres its groups were measure
     for (int round = 0; round < 20000; round++) {
         double middle = random.sign() * random.log_between(1e-3, 1e6);
         double width = std::abs(middle) * random.log_between(1e-6, 1e2);
-        f32::Spread spread{{0, 0}, {0, 0}};
-        f32::TwoReal weight{0, 0};
+        ExactSpread spread;
         std::vector<std::pair<long double, long double>> samples; // weight, value
         for (int group = 0; group < 20; group++) {
             f32::GroupSpread g{0, float(middle + width * random.between(-1, 1)), 0, 0};
@@ -34,8 +33,7 @@ TEST_CASE("Film: a spread does not depend on the centres its groups were measure
                 g.weight += w, g.first += w * d, g.second += w * d * d;
                 samples.emplace_back(w, x);
             }
-            spread = f32::spread_join(spread, weight.high, g);
-            weight = f32::film_sum(weight, {g.weight, 0});
+            spread.add(g);
         }
         long double total = 0, sum = 0, squares = 0;
         for (auto [w, x] : samples)
@@ -43,10 +41,9 @@ TEST_CASE("Film: a spread does not depend on the centres its groups were measure
         for (auto [w, x] : samples)
             squares += w * (x - sum / total) * (x - sum / total);
         if (samples.size() < 2) continue;
-        long double mean = (long double)spread.mean.high + spread.mean.low;
+        double mean = spread.first.value().high / spread.weight.value().high;
         worst_mean = std::max(worst_mean, double(std::abs(mean - sum / total) / width));
-        worst_spread = std::max(worst_spread, double(std::abs(spread.spread.high / squares - 1)));
-        REQUIRE(spread.spread.high >= 0);
+        worst_spread = std::max(worst_spread, double(std::abs(spread.about(mean) / squares - 1)));
     }
     fmt::print("spread: mean off by {:.1e} of the width, spread by {:.1e}\n", worst_mean,
                worst_spread);
@@ -55,12 +52,10 @@ TEST_CASE("Film: a spread does not depend on the centres its groups were measure
 }
 
 TEST_CASE("Film: a group of no weight changes nothing") {
-    f32::Spread before{{3, 1e-9f}, {5, 1e-8f}};
-    f32::Spread after = f32::spread_join(before, 7, {0, 100, 0, 0});
-    CHECK(after.mean.high == before.mean.high);
-    CHECK(after.mean.low == before.mean.low);
-    CHECK(after.spread.high == before.spread.high);
-    CHECK(after.spread.low == before.spread.low);
-    f32::Spread first = f32::spread_join({{0, 0}, {0, 0}}, 0, {0, 0, 0, 0});
-    CHECK((first.mean.high == 0 && first.spread.high == 0));
+    ExactSpread spread;
+    spread.add({2, 3, 1, 5});
+    const double before = spread.about(3.5);
+    spread.add({0, 100, 0, 0});
+    CHECK(spread.about(3.5) == before);
+    CHECK(spread.weight.value().high == 2);
 }

@@ -64,7 +64,7 @@ TEST_CASE("Work sizes: buffers are as long as what lies in them", "[waves]") {
         CHECK(n.bad_samples == 6 * blocks);
         // Both parts of the sums of these, of three squares and of seven numbers of how they
         // spread, of every pixel of every block.
-        CHECK(holds(n.film, 2 * (results + 3 + 7), blocks * 16));
+        CHECK(holds(n.film, EXACT_WORDS * (results + 3 + 7), blocks * 16));
     }
 }
 
@@ -74,7 +74,8 @@ TEST_CASE("Work sizes: a filter that reaches further adds an offset and wider ti
     BufferCounts n = buffer_counts(s);
     CHECK(holds(n.results, 9 + 2, s.path_capacity));
     CHECK(n.bad_samples == 6 * s.film.window.tiles());
-    CHECK(holds(n.film, 2 * (9 + 3 + 7), s.film.window.tiles() * (4 + 2 * 2) * (4 + 2 * 2)));
+    CHECK(holds(n.film, EXACT_WORDS * (9 + 3 + 7),
+                s.film.window.tiles() * (4 + 2 * 2) * (4 + 2 * 2)));
 }
 
 TEST_CASE("Work sizes: waves fit the pool, and segments hold them", "[waves]") {
