@@ -73,14 +73,16 @@ FN void add_samples(BlockResults block, WaveParams wave, int first, int count,
     }
 }
 
-/// Reads: results, filter values. Writes: film (one work-item owns a tile); of samples that are not
-/// finite, which are left out, statistics (how many) and where the first was. What is added is
-/// told by the group alone, and added without error: sums do not depend on the waves.
+/// Reads: the wave's blocks, results, filter values. Writes: film (one work-item owns a tile); of
+/// samples that are not finite, which are left out, statistics (how many) and where the first was.
+/// What is added is told by the group alone, and added without error: sums do not depend on the
+/// waves.
 kernel void accumulate(KERNEL_PARAMETERS) {
     CHECK_BOUNDS();
     int block = get_global_id(0);
     if (block >= wave.block_count) return;
-    int tile = wave.first_block + block;
+    WaveBlock at = wave_block(wave_blocks, block);
+    int tile = at.block;
     BlockResults gathered;
     gathered.results = results + (long)block * wave.sample_count * BLOCK_PIXELS;
     gathered.stride = params.result_stride;
@@ -88,14 +90,14 @@ kernel void accumulate(KERNEL_PARAMETERS) {
     FilmTile of_film;
     of_film.stride = params.film_stride;
     of_film.channels = SPREAD_CHANNEL(params.aov_channels, HAS(moments));
-    of_film.digits = film + (long)tile * TILE_CELLS(params.filter_reach);
+    of_film.digits = film + (long)(tile - wave.film_first) * TILE_CELLS(params.filter_reach);
     BadSamples bad;
     bad.counts = statistics + statistic_count * block + statistic_first_fault;
     bad.first = bad_samples + bad_sample_field_count * (long)tile;
     bad.x = params.block_x + tile % params.blocks_x * BLOCK_SIDE;
     bad.y = params.block_y + tile / params.blocks_x * BLOCK_SIDE;
     for (int first = 0; first < wave.sample_count; first += FILM_SAMPLES) {
-        bad.sample = wave.first_sample + first;
+        bad.sample = at.first_sample + first;
         add_samples(gathered, wave, first, min(FILM_SAMPLES, wave.sample_count - first),
                     filter_values, params.filter_reach, of_film, bad);
     }

@@ -36,9 +36,8 @@ typedef struct {
     Real weight; // 0 where not valid
 } FilmSample;
 
-/// The pixels of the slots from `slot` on, which stand for `s`.
-FN FilmSample slot_pixels(RenderParams params, WaveParams wave, int slot, SlotSample s) {
-    int block = slot_block(wave, slot);
+/// The pixels that `s` is of, which lie in a block.
+FN FilmSample slot_pixels(RenderParams params, int block, SlotSample s) {
     FilmSample f;
     f.x = params.block_x + block % params.blocks_x * BLOCK_SIDE + s.x;
     f.y = params.block_y + block / params.blocks_x * BLOCK_SIDE + s.y;
@@ -97,8 +96,8 @@ FN Path camera_path(CameraRay ray, Int slot, Int pixel, Int sample) {
     return p;
 }
 
-/// Reads: camera, filter table. Writes: results (cleared), counts, path state. Pushes: one path a
-/// valid pixel and sample.
+/// Reads: the wave's blocks, camera, filter table. Writes: results (cleared), counts, path state.
+/// Pushes: one path a valid pixel and sample.
 kernel void generate(KERNEL_PARAMETERS) {
     CHECK_BOUNDS();
     int segment = get_global_id(0);
@@ -107,8 +106,9 @@ kernel void generate(KERNEL_PARAMETERS) {
     int to = segment * params.segment_stride, begin = to;
     Camera camera = camera_lanes(params.camera);
     for (int slot = first; slot < last; slot += LANES) {
-        SlotSample s = slot_sample(wave, slot);
-        FilmSample film_sample = slot_pixels(params, wave, slot, s);
+        WaveBlock block = wave_block(wave_blocks, slot_block(wave, slot));
+        SlotSample s = slot_sample(wave, block.first_sample, slot);
+        FilmSample film_sample = slot_pixels(params, block.block, s);
         SampleNumber number = sample_number(asUint(film_sample.pixel), asUint(s.sample),
                                             (Uint)(uint)params.seed, params.replicate_bits);
         Random4 random = sampler_draw(number, (Uint)(uint)draw_camera);

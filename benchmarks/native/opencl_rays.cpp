@@ -32,7 +32,7 @@ OpenClTracer::OpenClTracer(RenderDevice& device, const Bvh& bvh, int root, std::
     film.width = film.height = film.crop_width = film.crop_height = side;
     film.filter.kind = FilterKind::box;
     split_.streams = 1;
-    sizes_ = work_sizes({sample_window(film)}, 1, lanes, split_);
+    sizes_ = work_sizes(film_layout(film, {}, {}), 1, lanes, split_);
     work_ = wave_buffers(device.context, device.queue, buffer_counts(sizes_));
     film_ = {device.context, "film", 1};
 
@@ -67,7 +67,7 @@ void OpenClTracer::prepare(std::span<const Ray> rays, int depth, bool any_hit) {
     cl::Kernel& kernel = any_hit ? shadow_ : intersect_;
     constexpr std::size_t block = BLOCK_PIXELS;
     kernel.setArg(wave_argument,
-                  WaveParams{0, static_cast<int>((count_ + block - 1) / block), 0, 1});
+                  WaveParams{static_cast<int>((count_ + block - 1) / block), 1, 0, 0});
     kernel.setArg(depth_argument, depth);
 }
 

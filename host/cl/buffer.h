@@ -15,6 +15,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace parhelion {
@@ -142,31 +143,34 @@ private:
     std::size_t count_ = 0;
 };
 
-/// A buffer's values as they are when it is made, for as long as it lives: of a CPU's where they
-/// are, of others a copy. Nothing may be written to the buffer meanwhile.
+/// A buffer's values for as long as it lives, to be read (const T) or written as well: of a CPU's
+/// where they are, of others a copy. No kernel may use the buffer meanwhile.
 template<class T>
 class BufferView {
 public:
-    BufferView(const cl::CommandQueue& queue, const Buffer<T>& buffer)
+    BufferView(const cl::CommandQueue& queue, const Buffer<std::remove_const_t<T>>& buffer)
         : queue_(queue), handle_(buffer.handle()),
-          values_(static_cast<const T*>(
-                      queue.enqueueMapBuffer(handle_, CL_TRUE, CL_MAP_READ, 0, buffer.bytes())),
-                  buffer.count()) {}
+          values_(
+              static_cast<T*>(queue.enqueueMapBuffer(
+                  handle_, CL_TRUE, std::is_const_v<T> ? CL_MAP_READ : CL_MAP_READ | CL_MAP_WRITE,
+                  0, buffer.bytes())),
+              buffer.count()) {}
     ~BufferView() {
         cl_event done = nullptr;
-        if (clEnqueueUnmapMemObject(queue_(), handle_(), const_cast<T*>(values_.data()), 0, nullptr,
+        if (clEnqueueUnmapMemObject(queue_(), handle_(),
+                                    const_cast<std::remove_const_t<T>*>(values_.data()), 0, nullptr,
                                     &done) == CL_SUCCESS)
             cl::Event(done).wait();
     }
     BufferView(const BufferView&) = delete;
     BufferView& operator=(const BufferView&) = delete;
 
-    operator std::span<const T>() const { return values_; }
+    std::span<T> values() const { return values_; }
 
 private:
     cl::CommandQueue queue_;
     cl::Buffer handle_;
-    std::span<const T> values_;
+    std::span<T> values_;
 };
 
 } // namespace parhelion

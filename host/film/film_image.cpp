@@ -1,4 +1,4 @@
-// From the device's film to an image.
+// From the film's sums to an image.
 #include "host/film/film_image.h"
 
 #include "host/film/film_reader.h"
@@ -79,6 +79,17 @@ void add_aov_layer(const FilmReader& film, const AovLayer& layer, const SceneFra
     }
 }
 
+void add_film_layer(const FilmReader& film, const AovLayer& layer, const FilmContent& content,
+                    Image& image) {
+    const AovKindInfo& kind = film_aov_kinds[layer.kind];
+    const int spread = content.spread_channel();
+    const double unit = main_layer_unit(content.kind, content.frame);
+    for (int c = 0; c < static_cast<int>(kind.suffixes.size()); c++)
+        add_channel(image, fmt::format("{}.{}", layer.name, kind.suffixes[c]),
+                    layer.kind == film_aov_variance ? scaled(film.variances(spread, c), unit * unit)
+                                                    : film.sample_counts(spread));
+}
+
 } // namespace
 
 double main_layer_unit(IntegratorKind kind, const SceneFrame& frame) {
@@ -92,43 +103,26 @@ double main_layer_unit(IntegratorKind kind, const SceneFrame& frame) {
     }
 }
 
-Image film_image(std::span<const std::uint32_t> film, const FilmLayout& layout, const Film& crop,
-                 const Scene& scene, const AovPlan& aovs, const SceneFrame& frame) {
+Image film_image(const FilmSums& sums, const FilmContent& content) {
     Image image;
-    image.width = crop.crop_width, image.height = crop.crop_height;
-    image.full_width = crop.width, image.full_height = crop.height;
-    image.offset_x = crop.crop_x, image.offset_y = crop.crop_y;
-    FilmReader reader(film, layout, crop);
-    double unit = main_layer_unit(scene.integrator.kind, frame);
-    add_main_layer(reader, crop.pixel_format, unit, image);
-    for (const AovLayer& layer : aovs.layers)
-        add_aov_layer(reader, layer, frame, image);
-    for (const AovLayer& layer : aovs.film_layers) {
-        const AovKindInfo& kind = film_aov_kinds[layer.kind];
-        for (int c = 0; c < static_cast<int>(kind.suffixes.size()); c++)
-            add_channel(image, fmt::format("{}.{}", layer.name, kind.suffixes[c]),
-                        layer.kind == film_aov_variance ? scaled(reader.variances(c), unit * unit)
-                                                        : reader.sample_counts());
-    }
-    if (scene.integrator.second_moment) {
+    const Film& film = content.film;
+    image.width = film.crop_width, image.height = film.crop_height;
+    image.full_width = film.width, image.full_height = film.height;
+    image.offset_x = film.crop_x, image.offset_y = film.crop_y;
+    const FilmReader reader(sums, film.crop_width, film.crop_height);
+    const double unit = main_layer_unit(content.kind, content.frame);
+    add_main_layer(reader, film.pixel_format, unit, image);
+    for (const AovLayer& layer : content.aovs.layers)
+        add_aov_layer(reader, layer, content.frame, image);
+    for (const AovLayer& layer : content.aovs.film_layers)
+        add_film_layer(reader, layer, content, image);
+    if (content.second_moment) {
         constexpr std::string_view suffixes = "RGB";
         for (int c = 0; c < 3; c++)
             add_channel(image, fmt::format("second_moment.{}", suffixes[c]),
-                        scaled(reader.means(layout.square_channel() + c), unit * unit));
+                        scaled(reader.means(content.square_channel() + c), unit * unit));
     }
     return image;
-}
-
-void append_band(Image& image, Image band) {
-    if (image.channels.empty()) {
-        image = std::move(band);
-        return;
-    }
-    image.height += band.height;
-    for (std::size_t c = 0; c < image.channels.size(); c++) {
-        const std::vector<float>& more = band.channels[c].values;
-        image.channels[c].values.insert(image.channels[c].values.end(), more.begin(), more.end());
-    }
 }
 
 } // namespace parhelion

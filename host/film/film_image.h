@@ -1,12 +1,9 @@
-// From the device's film to an image.
+// From the film's sums to an image.
 #pragma once
 
-#include "host/film/film_layout.h"
-#include "host/flatten/scene_frame.h"
+#include "host/film/film_content.h"
+#include "host/film/film_sums.h"
 #include "host/image/image.h"
-
-#include <cstdint>
-#include <span>
 
 namespace parhelion {
 
@@ -14,14 +11,8 @@ namespace parhelion {
 /// of a normal.
 double main_layer_unit(IntegratorKind kind, const SceneFrame& frame);
 
-/// Of `crop`, a part of the scene's film: divides its sums by the filter weights, turns what the
-/// device has in the units of `frame` into the scene's own, and names the channels. `film` as the
-/// accumulate kernel leaves it.
-Image film_image(std::span<const std::uint32_t> film, const FilmLayout& layout, const Film& crop,
-                 const Scene& scene, const AovPlan& aovs, const SceneFrame& frame);
-
-/// Puts the rows of a band below those of the bands above it; the first one comes to an image of
-/// nothing.
-void append_band(Image& image, Image band);
+/// Divides the sums by the filter weights, turns what the device has in units of its own into the
+/// scene's, and names the channels.
+Image film_image(const FilmSums& sums, const FilmContent& content);
 
 } // namespace parhelion

@@ -1,4 +1,5 @@
-// Where the film holds what: its channels (kernels/device/buffers.h) and their tiles.
+// Where the film holds what: its channels (kernels/device/buffers.h), and the tiles of its blocks
+// in bands, each of them a buffer.
 #pragma once
 
 #include "host/film/sample_window.h"
@@ -16,7 +17,10 @@ struct FilmLayout {
     int aov_channels = 0;
     bool moments = false; ///< squares of r, g, b
     bool spreads = false; ///< how a pixel's samples spread
+    int band_blocks = 0;  ///< whole rows of blocks; the last band may have fewer
 
+    int blocks() const { return static_cast<int>(window.tiles()); }
+    int bands() const { return (blocks() + band_blocks - 1) / band_blocks; }
     int channels() const { return FILM_CHANNELS(aov_channels, moments, spreads); }
     int square_channel() const { return SQUARE_CHANNEL(aov_channels); }
     int spread_channel() const { return SPREAD_CHANNEL(aov_channels, moments); }
@@ -25,17 +29,21 @@ struct FilmLayout {
     int result_channels() const { return RESULT_CHANNELS(aov_channels, window.reach > 0); }
 
     /// Words from one digit of a sum to the next.
-    std::size_t stride() const { return odd_lines(window.tiles() * window.tile_cells()); }
+    std::size_t stride() const { return odd_lines(band_blocks * window.tile_cells()); }
     std::size_t channel_words() const { return EXACT_WORDS * stride(); }
+    /// Of a band.
     std::size_t words() const { return static_cast<std::size_t>(channels()) * channel_words(); }
     std::size_t bytes() const { return 4 * words(); }
 };
 
-/// Of the film's crop.
+/// Of the film's crop, in one band.
 inline FilmLayout film_layout(const Film& film, const Integrator& integrator, const AovPlan& aovs) {
-    return {sample_window(film), aovs.channels, integrator.second_moment,
-            !aovs.film_layers.empty()};
+    const SampleWindow window = sample_window(film);
+    return {window, aovs.channels, integrator.second_moment, !aovs.film_layers.empty(),
+            static_cast<int>(window.tiles())};
 }
+/// In as few bands as take no more than `bytes` each; of a row of blocks at least.
+FilmLayout in_bands(FilmLayout layout, std::size_t bytes);
 inline FilmLayout film_layout(const Scene& scene, const AovPlan& aovs) {
     return film_layout(scene.film, scene.integrator, aovs);
 }

@@ -3,9 +3,9 @@
 
 #include "host/clock.h"
 #include "host/error.h"
-#include "host/film/film_bands.h"
-#include "host/film/film_image.h"
+#include "host/film/tiled_film.h"
 #include "host/flatten/scene_features.h"
+#include "host/render/session.h"
 #include "host/waves/device_waves.h"
 #include "host/waves/render_params.h"
 #include "host/waves/wavefront.h"
@@ -18,13 +18,6 @@
 namespace parhelion {
 namespace {
 
-void check_bounds(DeviceWaves& waves) {
-    for (WaveStream& stream : waves.streams())
-        if (const char* buffer = stream.read_outside())
-            throw std::logic_error(
-                fmt::format("a kernel reads or writes outside of its buffers, from {} on", buffer));
-}
-
 /// Streams for the device to choose from: two where several cores would wait for each other.
 int stream_count(const WorkSplit& split, const Device& device) {
     if (split.streams > 0) return split.streams;
@@ -34,19 +27,19 @@ int stream_count(const WorkSplit& split, const Device& device) {
                : 1;
 }
 
-/// What the film may take at once: a buffer of the device, and no more than a quarter of all.
+/// What a band of the film may take: a buffer of the device, and no more than a quarter of all.
 std::size_t film_bytes_at_once(const Device& device) {
     return static_cast<std::size_t>(std::min(device.max_allocation_bytes, device.memory_bytes / 4));
 }
 
 /// Told before anything is rendered: one row of blocks that is more than the device holds.
-void check_film_memory(const Scene& scene, const FilmLayout& band, const Device& device) {
-    if (band.bytes() <= device.max_allocation_bytes) return;
+void check_film_memory(const Scene& scene, const FilmLayout& layout, const Device& device) {
+    if (layout.bytes() <= device.max_allocation_bytes) return;
     throw InputError(fmt::format(
         "{}: {} rows of a film of {} pixels a row and {} channels take {:.1f} GB; {} has {:.1f} GB "
         "at once (accepted: a smaller --size, or a part of it, --crop)",
-        scene.file, BLOCK_SIDE, scene.film.crop_width, band.channels(),
-        static_cast<double>(band.bytes()) / 1e9, device.name,
+        scene.file, BLOCK_SIDE, scene.film.crop_width, layout.channels(),
+        static_cast<double>(layout.bytes()) / 1e9, device.name,
         static_cast<double>(device.max_allocation_bytes) / 1e9));
 }
 
@@ -69,14 +62,79 @@ DeviceWaves compiled(RenderDevice& device, const DeviceScene& flat, const Render
     return waves;
 }
 
-/// What the device knows after the last wave.
-void report_of(DeviceWaves& waves, RenderReport& report) {
-    add_counts(waves.read_statistics(), report);
-    if (report.non_finite_samples > 0) report.bad_samples = waves.read_bad_samples();
-    report.stages = waves.stage_reports();
-    report.device_pool_bytes = waves.pool_bytes();
-    report.device_film_bytes = waves.film_bytes();
-}
+/// The film of a device's buffers.
+class DeviceFilm : public FilmSums {
+public:
+    DeviceFilm(const DeviceWaves& waves, const FilmLayout& layout, const Film& crop)
+        : views_(waves.film_views<const cl_uint>()), film_(values(views_), layout, crop) {}
+
+    void add_row(int channel, int y, SumRow& row) const override { film_.add_row(channel, y, row); }
+
+    template<class Word>
+    static std::vector<std::span<Word>> values(const std::deque<BufferView<Word>>& views) {
+        std::vector<std::span<Word>> all;
+        for (const BufferView<Word>& view : views)
+            all.push_back(view.values());
+        return all;
+    }
+
+private:
+    std::deque<BufferView<const cl_uint>> views_;
+    TiledFilm film_;
+};
+
+class DeviceEngine : public Engine {
+public:
+    DeviceEngine(DeviceScene scene, DeviceWaves waves, const WorkSizes& sizes)
+        : scene_(std::move(scene)), waves_(std::move(waves)), sizes_(sizes) {}
+
+    /// Film and streams.
+    void allocate(const Scene& scene, const AovPlan& aovs, bool checked) {
+        const RenderParams params = render_params(scene, scene_, sizes_, aovs);
+        waves_.upload(scene_);
+        waves_.allocate(sizes_, params);
+        loop_ = wave_loop(sizes_, params, scene_.features.on());
+        crop_ = scene.film;
+        checked_ = checked;
+    }
+
+    void trace(WaveSchedule& schedule, const std::function<void()>& on_wave) override {
+        trace_waves(std::span(waves_.streams()), schedule, loop_, on_wave);
+        if (checked_) check_bounds();
+    }
+    WaveLimits wave_limits() const override { return sizes_.wave_limits(); }
+
+    std::unique_ptr<FilmSums> film() override {
+        return std::make_unique<DeviceFilm>(waves_, sizes_.film, crop_);
+    }
+    void fill_film(const FilmSums& sums) override {
+        const auto views = waves_.film_views<cl_uint>();
+        put_sums(sums, sizes_.film, crop_, DeviceFilm::values(views));
+    }
+
+    TraceCounts counts() override { return counts_of(waves_.read_statistics()); }
+    std::vector<BadSample> bad_samples() override { return waves_.read_bad_samples(); }
+    void report(RenderReport& report) override {
+        report.stages = waves_.stage_reports();
+        report.device_pool_bytes = waves_.pool_bytes();
+        report.device_film_bytes = waves_.film_bytes();
+    }
+
+private:
+    void check_bounds() {
+        for (WaveStream& stream : waves_.streams())
+            if (const char* buffer = stream.read_outside())
+                throw std::logic_error(fmt::format(
+                    "a kernel reads or writes outside of its buffers, from {} on", buffer));
+    }
+
+    DeviceScene scene_;
+    DeviceWaves waves_; // reads the scene where it is
+    WorkSizes sizes_;
+    WaveLoop loop_{};
+    Film crop_;
+    bool checked_ = false;
+};
 
 } // namespace
 
@@ -110,65 +168,48 @@ DeviceScene flattened(const Scene& scene, LightChoice light_choice, Progress& pr
     return flat;
 }
 
-void add_counts(std::span<const ulong> of_segments, RenderReport& report) {
-    std::array<std::uint64_t, statistic_count> statistics{};
+TraceCounts counts_of(std::span<const ulong> of_segments) {
+    TraceCounts counts{};
     for (std::size_t i = 0; i < of_segments.size(); i++)
-        statistics[i % statistic_count] += of_segments[i];
-    report.camera_rays = report.paths = statistics[statistic_camera_rays];
-    report.bounce_rays = statistics[statistic_bounce_rays];
-    report.shadow_rays = statistics[statistic_shadow_rays];
-    for (int fault = 0; fault < fault_count; fault++) {
-        std::uint64_t samples = statistics[statistic_first_fault + fault];
-        report.non_finite_samples += samples;
-        if (samples > 0)
-            report.faults.push_back({fault_stages[fault], fault_names[fault], samples});
-    }
+        counts[i % statistic_count] += of_segments[i];
+    return counts;
 }
 
-RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
-                    Progress& progress) {
-    RenderResult result;
-    RenderReport& report = result.report;
-    AovPlan aovs = plan_aovs(scene);
+OpenedRender open_on_device(const Scene& scene, RenderDevice& device, const RenderOptions& options,
+                            Progress& progress) {
+    RenderReport report;
+    const AovPlan aovs = plan_aovs(scene);
     report.device = device.device.name;
     report.driver = device.device.driver_version;
     report.lanes = device.device.lanes(options.lanes);
     report.tracing_lanes = device.device.tracing_lanes(options.lanes);
     WorkSplit split = options.split;
     split.streams = options.checked ? 1 : stream_count(split, device.device);
-    const std::vector<Film> bands =
-        film_bands(scene.film, scene.integrator, aovs, film_bytes_at_once(device.device));
-    check_film_memory(scene, film_layout(bands.front(), scene.integrator, aovs), device.device);
+    const FilmLayout layout = in_bands(film_layout(scene, aovs), film_bytes_at_once(device.device));
+    check_film_memory(scene, layout, device.device);
+    const int samples = scene.sampler.samples_per_pixel;
+    const WorkSizes sizes = work_sizes(layout, samples, report.lanes, split);
 
     DeviceScene flat = flattened(scene, options.light_choice, progress, report);
+    const FilmContent content = film_content(scene, aovs, flat.frame);
     DeviceWaves waves = compiled(device, flat, options, progress, report);
-    auto start = Clock::now();
-    waves.upload(flat);
+    const auto start = Clock::now();
+    auto engine = std::make_unique<DeviceEngine>(std::move(flat), std::move(waves), sizes);
+    engine->allocate(scene, aovs, options.checked);
     report.upload_seconds = seconds_since(start);
+    return {std::move(engine), content, layout.blocks(), samples, std::move(report)};
+}
 
-    progress.start("rendering");
-    start = Clock::now();
-    Share share{0, 0};
-    for (const Film& band : bands) {
-        const FilmLayout layout = film_layout(band, scene.integrator, aovs);
-        const WorkSizes sizes =
-            work_sizes(layout, scene.sampler.samples_per_pixel, report.lanes, split);
-        const RenderParams params = render_params(scene, flat, sizes, aovs);
-        waves.allocate(sizes, params);
-        share.before += share.whole;
-        share.whole = static_cast<double>(band.crop_height) / scene.film.crop_height;
-        trace_film(std::span(waves.streams()), sizes, scene.sampler.samples_per_pixel,
-                   wave_loop(sizes, params, flat.features.on()), progress, share);
-        if (options.checked) check_bounds(waves);
-        append_band(result.image,
-                    film_image(waves.film_view(), layout, band, scene, aovs, flat.frame));
-    }
-    report.render_seconds = seconds_since(start);
-    report_of(waves, report);
-    progress.finish(fmt::format("{:.2f} Mpaths/s, {:.2f} Mrays/s",
-                                static_cast<double>(report.paths) / report.render_seconds / 1e6,
-                                static_cast<double>(report.rays()) / report.render_seconds / 1e6));
-    return result;
+RenderResult rendered(OpenedRender opened, Progress& progress) {
+    Session session(std::move(opened), {}, progress);
+    while (!session.finished())
+        session.step([] { return false; });
+    return {session.image(), session.report()};
+}
+
+RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
+                    Progress& progress) {
+    return rendered(open_on_device(scene, device, options, progress), progress);
 }
 
 } // namespace parhelion

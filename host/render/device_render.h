@@ -4,7 +4,7 @@
 #include "host/flatten/device_scene.h"
 #include "host/image/image.h"
 #include "host/progress.h"
-#include "host/render/report.h"
+#include "host/render/engine.h"
 #include "host/scene/scene.h"
 #include "host/waves/work_sizes.h"
 
@@ -38,11 +38,18 @@ struct RenderResult {
 RenderResult render(const Scene& scene, RenderDevice& device, const RenderOptions& options,
                     Progress& progress);
 
+/// What render() does in one go, up to the first wave. `scene` and `device` must outlive it.
+OpenedRender open_on_device(const Scene& scene, RenderDevice& device, const RenderOptions& options,
+                            Progress& progress);
+
 /// As records, with what the report says of scene and picture.
 DeviceScene flattened(const Scene& scene, LightChoice light_choice, Progress& progress,
                       RenderReport& report);
 
+/// Renders all of it.
+RenderResult rendered(OpenedRender opened, Progress& progress);
+
 /// `of_segments`: STATISTICS and FAULTS of each.
-void add_counts(std::span<const ulong> of_segments, RenderReport& report);
+TraceCounts counts_of(std::span<const ulong> of_segments);
 
 } // namespace parhelion

@@ -1,8 +1,7 @@
 // Rendering a scene with the kernels compiled as C++: slowly, and without a device.
 #include "host/render/host_render.h"
 
-#include "host/clock.h"
-#include "host/film/film_image.h"
+#include "host/film/tiled_film.h"
 #include "host/twin/twin_waves.h"
 #include "host/waves/render_params.h"
 #include "host/waves/wavefront.h"
@@ -16,43 +15,71 @@
 namespace parhelion {
 namespace {
 
+/// The kernels as C++, and a film in one band.
 template<class Real>
-void render_flat(const Scene& scene, const DeviceScene& flat, const RenderOptions& options,
-                 Progress& progress, RenderResult& result) {
-    AovPlan aovs = plan_aovs(scene);
-    WorkSplit split = options.split;
-    split.streams = 1;
-    WorkSizes sizes =
-        work_sizes(film_layout(scene, aovs), scene.sampler.samples_per_pixel, 1, split);
-    WaveMemory<Real> memory(sizes);
-    RenderParams params = render_params(scene, flat, sizes, aovs);
-    FeatureSet features = render_features(flat, options);
-    TwinWaves<Real> waves({scene_arrays(flat), params, features, WaveParams{}, memory});
-    auto start = Clock::now();
-    trace_film(std::span<TwinWaves<Real>>(&waves, 1), sizes, scene.sampler.samples_per_pixel,
-               wave_loop(sizes, params, features), progress);
-    result.report.render_seconds = seconds_since(start);
-    add_counts(memory.statistics, result.report);
-    result.report.bad_samples = first_bad_samples({memory.bad_samples});
-    result.image = film_image(memory.film, sizes.film, scene.film, scene, aovs, flat.frame);
-}
+class HostEngine : public Engine {
+public:
+    HostEngine(DeviceScene flat, const Scene& scene, const RenderOptions& options,
+               const AovPlan& aovs, const WorkSizes& sizes)
+        : scene_(std::move(flat)), sizes_(sizes), crop_(scene.film), memory_(sizes),
+          params_(render_params(scene, scene_, sizes, aovs)),
+          features_(render_features(scene_, options)) {}
+
+    void trace(WaveSchedule& schedule, const std::function<void()>& on_wave) override {
+        TwinWaves<Real> waves({scene_arrays(scene_), params_, features_, WaveParams{}, memory_});
+        trace_waves(std::span(&waves, 1), schedule, wave_loop(sizes_, params_, features_), on_wave);
+    }
+    WaveLimits wave_limits() const override { return sizes_.wave_limits(); }
+
+    std::unique_ptr<FilmSums> film() override {
+        return std::make_unique<TiledFilm>(
+            std::vector<std::span<const std::uint32_t>>{memory_.film}, sizes_.film, crop_);
+    }
+    void fill_film(const FilmSums& sums) override {
+        put_sums(sums, sizes_.film, crop_, {memory_.film});
+    }
+
+    TraceCounts counts() override { return counts_of(memory_.statistics); }
+    std::vector<BadSample> bad_samples() override {
+        return first_bad_samples({memory_.bad_samples});
+    }
+    void report(RenderReport&) override {}
+
+private:
+    DeviceScene scene_;
+    WorkSizes sizes_;
+    Film crop_;
+    WaveMemory<Real> memory_;
+    RenderParams params_;
+    FeatureSet features_;
+};
 
 } // namespace
 
+OpenedRender open_on_host(const Scene& scene, const RenderOptions& options, Precision precision,
+                          Progress& progress) {
+    const bool twice = precision == Precision::double_precision;
+    RenderReport report;
+    DeviceScene flat = flattened(scene, options.light_choice, progress, report);
+    report.device = twice ? "host, double precision" : "host, single precision";
+    const AovPlan aovs = plan_aovs(scene);
+    WorkSplit split = options.split;
+    split.streams = 1;
+    const int samples = scene.sampler.samples_per_pixel;
+    const WorkSizes sizes = work_sizes(film_layout(scene, aovs), samples, 1, split);
+    const FilmContent content = film_content(scene, aovs, flat.frame);
+    progress.note(fmt::format("rendering on the {}: slow", report.device));
+    std::unique_ptr<Engine> engine;
+    if (twice)
+        engine = std::make_unique<HostEngine<double>>(std::move(flat), scene, options, aovs, sizes);
+    else
+        engine = std::make_unique<HostEngine<float>>(std::move(flat), scene, options, aovs, sizes);
+    return {std::move(engine), content, sizes.film.blocks(), samples, std::move(report)};
+}
+
 RenderResult render_on_host(const Scene& scene, const RenderOptions& options, Precision precision,
                             Progress& progress) {
-    bool twice = precision == Precision::double_precision;
-    RenderResult result;
-    DeviceScene flat = flattened(scene, options.light_choice, progress, result.report);
-    result.report.device = twice ? "host, double precision" : "host, single precision";
-    progress.start(fmt::format("rendering on the {}: slow", result.report.device));
-    if (twice)
-        render_flat<double>(scene, flat, options, progress, result);
-    else
-        render_flat<float>(scene, flat, options, progress, result);
-    progress.finish(fmt::format("{:.3f} Mpaths/s", static_cast<double>(result.report.paths) /
-                                                       result.report.render_seconds / 1e6));
-    return result;
+    return rendered(open_on_host(scene, options, precision, progress), progress);
 }
 
 } // namespace parhelion

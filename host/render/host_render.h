@@ -11,6 +11,10 @@ enum class Precision { single_precision, double_precision };
 /// double precision the same kernels make it from the same records and random numbers, so that it
 /// differs by what rounding does to the device's. Work is shared out among the threads of oneTBB;
 /// it does not depend on them.
+OpenedRender open_on_host(const Scene& scene, const RenderOptions& options, Precision precision,
+                          Progress& progress);
+
+/// All of it.
 RenderResult render_on_host(const Scene& scene, const RenderOptions& options, Precision precision,
                             Progress& progress);
 

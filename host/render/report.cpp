@@ -60,6 +60,17 @@ nlohmann::json json_number(double value) {
     return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
 }
 
+void add_state(const FilmState& state, RenderReport& report) {
+    report.camera_rays = report.paths = state.counts[statistic_camera_rays];
+    report.bounce_rays = state.counts[statistic_bounce_rays];
+    report.shadow_rays = state.counts[statistic_shadow_rays];
+    report.non_finite_samples = non_finite_samples(state.counts);
+    report.bad_samples = state.bad_samples;
+    for (int fault = 0; fault < fault_count; fault++)
+        if (const std::uint64_t samples = state.counts[statistic_first_fault + fault])
+            report.faults.push_back({fault_stages[fault], fault_names[fault], samples});
+}
+
 nlohmann::json to_json(const SceneFrame& frame) {
     glm::dvec3 centre = frame.centre();
     return {{"centre", {centre.x, centre.y, centre.z}},

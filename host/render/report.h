@@ -1,7 +1,7 @@
 // What a render did and what it cost, for people and for scripts.
 #pragma once
 
-#include "host/film/bad_samples.h"
+#include "host/film/film_state.h"
 #include "host/flatten/scene_frame.h"
 #include "host/image/misfits.h"
 #include "host/waves/stage_report.h"
@@ -48,6 +48,9 @@ struct RenderReport {
     std::uint64_t rays() const { return camera_rays + bounce_rays + shadow_rays; }
     bool all_cached() const;
 };
+
+/// What was counted, into a report that has nothing of it.
+void add_state(const FilmState& state, RenderReport& report);
 
 /// One object; every key that has a unit ends in it.
 nlohmann::json to_json(const RenderReport& report);

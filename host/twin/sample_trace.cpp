@@ -124,7 +124,7 @@ public:
     TracedWave(const HostLaunch<float>& launch, const DeviceScene& scene)
         : launch_(launch), path_(launch.memory, launch_.params), scene_(scene) {}
 
-    void begin_wave(const WaveParams& wave) { launch_.wave = wave; }
+    void begin_wave(const Wave& wave) { set_wave(launch_, wave); }
     void launch(Stage stage, int depth, int) {
         switch (stage) {
         case Stage::generate:
@@ -216,7 +216,7 @@ SampleTrace trace_sample(const Scene& scene, const DeviceScene& flat, int x, int
     // Streams store whether a shadow ray was blocked; their answers are those of packets.
     FeatureSet features = flat.features.on() | FeatureSet{feature_ray_streams};
     TracedWave device({scene_arrays(flat), params, features, WaveParams{}, memory}, flat);
-    trace_wave(device, WaveParams{0, 1, sample, 1}, wave_loop(sizes, params, features));
+    trace_wave(device, Wave{{{0, 1, sample, sample + 1}}}, wave_loop(sizes, params, features));
     SampleTrace trace = device.take();
     trace.x = x, trace.y = y, trace.sample = sample;
     return trace;

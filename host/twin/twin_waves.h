@@ -15,7 +15,7 @@ public:
     /// What `launch` refers to must outlive it.
     explicit TwinWaves(const HostLaunch<Real>& launch) : launch_(launch) {}
 
-    void begin_wave(const WaveParams& wave) { launch_.wave = wave; }
+    void begin_wave(const Wave& wave) { set_wave(launch_, wave); }
     void launch(Stage stage, int depth, int work_items) {
         parallel_for(static_cast<std::size_t>(work_items), [&](std::size_t number) {
             run_work_item(stage, launch_, depth, static_cast<int>(number));

@@ -4,8 +4,10 @@
 
 #include "host/flatten/scene_arrays.h"
 #include "host/waves/stages.h"
+#include "host/waves/wave.h"
 #include "host/waves/work_sizes.h"
 
+#include <algorithm>
 #include <type_traits>
 #include <vector>
 
@@ -40,6 +42,14 @@ struct HostLaunch {
     WaveParams wave;
     WaveMemory<Real>& memory;
 };
+
+/// The launches that follow are of this wave; the film is in one band.
+template<class Real>
+void set_wave(HostLaunch<Real>& launch, const Wave& wave) {
+    const std::vector<WaveBlock> blocks = wave_blocks(wave);
+    std::copy(blocks.begin(), blocks.end(), launch.memory.wave_blocks.begin());
+    launch.wave = wave_params(wave, 0);
+}
 
 /// Runs one work-item of a stage.
 void run_work_item(Stage stage, const HostLaunch<float>& launch, int depth, int number);

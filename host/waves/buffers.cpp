@@ -5,6 +5,8 @@
 #include "kernels/device/bounds.h"
 
 #include <array>
+#include <string>
+#include <string_view>
 
 namespace parhelion {
 
@@ -14,12 +16,24 @@ SceneBuffers scene_buffers(const cl::Context& context, const cl::CommandQueue& q
     return {SCENE_BUFFERS(OF_ARRAY)};
 }
 
+namespace {
+
+/// There is nothing behind what is not finite: it takes no memory but for a film that has some.
+template<class T>
+Buffer<T> zeroed(const cl::Context& context, const cl::CommandQueue& queue, std::string_view name,
+                 std::size_t count) {
+    if (name == "bad_samples") return Buffer<T>::zeros(context, queue, std::string(name), count);
+    Buffer<T> buffer(context, std::string(name), count);
+    buffer.fill_zero(queue);
+    return buffer;
+}
+
+} // namespace
+
 WaveBuffers wave_buffers(const cl::Context& context, const cl::CommandQueue& queue,
                          const BufferCounts& counts) {
     WaveBuffers work;
-#define ALLOCATE(type, name)                                                                       \
-    work.name = {context, #name, counts.name};                                                     \
-    work.name.fill_zero(queue);
+#define ALLOCATE(type, name) work.name = zeroed<type>(context, queue, #name, counts.name);
     WAVE_BUFFERS(ALLOCATE)
     return work;
 }

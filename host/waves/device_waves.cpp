@@ -12,28 +12,17 @@ void DeviceWaves::upload(const DeviceScene& scene) {
 }
 
 void DeviceWaves::allocate(const WorkSizes& s, const RenderParams& params) {
-    keep_accounts();
-    streams_.clear();
-    film_ = {};
-    film_ = Buffer<cl_uint>::zeros(device_.context, device_.queue, "film", buffer_counts(s).film);
+    for (int band = 0; band < s.film.bands(); band++)
+        films_.push_back(
+            Buffer<cl_uint>::zeros(device_.context, device_.queue, "film", buffer_counts(s).film));
     for (int i = 0; i < s.streams; i++) {
         streams_.emplace_back(device_, stages_, s);
-        streams_.back().bind(scene_, film_, params);
+        streams_.back().bind(scene_, films_, params);
     }
-}
-
-void DeviceWaves::keep_accounts() {
-    for (WaveStream& stream : streams_) {
-        std::vector<ulong> of_stream = stream.read_statistics();
-        statistics_.insert(statistics_.end(), of_stream.begin(), of_stream.end());
-        for (std::size_t i = 0; i < stage_count; i++)
-            times_[i] += stream.stage_times()[i];
-    }
-    bad_samples_ = read_bad_samples();
 }
 
 std::vector<ulong> DeviceWaves::read_statistics() {
-    std::vector<ulong> all = statistics_;
+    std::vector<ulong> all;
     for (WaveStream& stream : streams_) {
         std::vector<ulong> of_stream = stream.read_statistics();
         all.insert(all.end(), of_stream.begin(), of_stream.end());
@@ -45,26 +34,24 @@ std::vector<BadSample> DeviceWaves::read_bad_samples() {
     std::vector<std::vector<int>> of_streams;
     for (WaveStream& stream : streams_)
         of_streams.push_back(stream.read_bad_samples());
-    std::vector<BadSample> all = first_bad_samples(of_streams);
-    all.insert(all.end(), bad_samples_.begin(), bad_samples_.end());
-    return first_of(std::move(all));
+    return first_bad_samples(of_streams);
 }
 
 std::vector<StageReport> DeviceWaves::stage_reports() const {
-    std::array<StageTime, stage_count> times = times_;
-    for (const WaveStream& stream : streams_)
-        for (std::size_t i = 0; i < stage_count; i++)
-            times[i] += stream.stage_times()[i];
     std::vector<StageReport> reports = stages_.reports;
-    for (std::size_t i = 0; i < stage_count; i++) {
-        reports[i].kernel_seconds += times[i].kernel_seconds;
-        reports[i].launches += times[i].launches;
-    }
+    for (const WaveStream& stream : streams_)
+        for (std::size_t i = 0; i < stage_count; i++) {
+            const StageTime& time = stream.stage_times()[i];
+            reports[i].kernel_seconds += time.kernel_seconds;
+            reports[i].launches += time.launches;
+        }
     return reports;
 }
 
 std::size_t DeviceWaves::film_bytes() const {
-    std::size_t bytes = film_.bytes();
+    std::size_t bytes = 0;
+    for (const Buffer<cl_uint>& film : films_)
+        bytes += film.bytes();
     for (const WaveStream& stream : streams_)
         bytes += stream.bad_sample_bytes();
     return bytes;

@@ -5,6 +5,8 @@
 #include "host/film/bad_samples.h"
 #include "host/waves/wave_stream.h"
 
+#include <deque>
+
 namespace parhelion {
 
 class DeviceWaves {
@@ -15,13 +17,19 @@ public:
     /// `scene` must outlive the waves and not change: a CPU reads its large arrays where they
     /// are.
     void upload(const DeviceScene& scene);
-    /// Film and streams, bound to the scene and the parameters; in the place of others, whose
-    /// accounts are kept.
+    /// Film and streams, bound to the scene and the parameters.
     void allocate(const WorkSizes& sizes, const RenderParams& params);
 
     std::vector<WaveStream>& streams() { return streams_; }
-    BufferView<cl_uint> film_view() { return {device_.queue, film_}; }
-    /// STATISTICS and FAULTS of each segment of all streams there have been.
+    /// Of each band of the film.
+    template<class Word>
+    std::deque<BufferView<Word>> film_views() const {
+        std::deque<BufferView<Word>> views;
+        for (const Buffer<cl_uint>& film : films_)
+            views.emplace_back(device_.queue, film);
+        return views;
+    }
+    /// STATISTICS and FAULTS of each segment of all streams.
     std::vector<ulong> read_statistics();
     /// The first ones of all, as first_bad_samples has them.
     std::vector<BadSample> read_bad_samples();
@@ -37,14 +45,8 @@ private:
     RenderDevice& device_;
     StagePrograms stages_;
     SceneBuffers scene_;
-    /// Takes the accounts of the streams.
-    void keep_accounts();
-
-    Buffer<cl_uint> film_;
+    std::vector<Buffer<cl_uint>> films_;
     std::vector<WaveStream> streams_;
-    std::vector<ulong> statistics_; ///< of those that are gone, like the next two
-    std::vector<BadSample> bad_samples_;
-    std::array<StageTime, stage_count> times_{};
 };
 
 } // namespace parhelion

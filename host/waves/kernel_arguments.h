@@ -9,7 +9,8 @@ namespace parhelion {
 
 #define COUNT_ONE(type, name) +1
 inline constexpr cl_uint buffer_arguments = 0 SCENE_BUFFERS(COUNT_ONE) WORK_BUFFERS(COUNT_ONE);
-inline constexpr cl_uint params_argument = buffer_arguments, wave_argument = buffer_arguments + 1,
+inline constexpr cl_uint film_argument = buffer_arguments - 1, params_argument = buffer_arguments,
+                         wave_argument = buffer_arguments + 1,
                          depth_argument = buffer_arguments + 2,
                          // Of checked kernels.
     sizes_argument = buffer_arguments + 3, outside_argument = buffer_arguments + 4;

@@ -1,33 +1,55 @@
 // Which wave comes next: all blocks for some samples, then for the next ones; streams take turns.
 #pragma once
 
-#include "kernels/shared/types.h"
+#include "host/waves/wave.h"
 
+#include <atomic>
 #include <condition_variable>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <vector>
 
 namespace parhelion {
 
-/// Hands out the waves of a render to several threads. The samples of a block are added up in their
-/// order: a wave waits for the one before it of the same blocks.
+/// What a wave may hold at most.
+struct WaveLimits {
+    int samples = 1;       ///< of a block
+    int band_blocks = 1;   ///< the film comes in bands of so many blocks, a wave lies in one
+    int block_samples = 1; ///< blocks times samples
+};
+
+/// Hands out the waves of a render to several threads. No two that are under way have a block in
+/// common, so that each has its tiles of the film alone.
 class WaveSchedule {
 public:
-    WaveSchedule(int blocks, int samples, int blocks_per_wave, int samples_per_wave);
+    WaveSchedule(const SampleSet& todo, const WaveLimits& limits);
 
-    /// None: nothing is left, or the render was given up.
-    std::optional<WaveParams> take();
-    /// A wave that was taken is on the film. Returns the share of all samples that are, 0 to 1.
-    double finish(const WaveParams& wave);
+    /// None: nothing is left, or it was stopped.
+    std::optional<Wave> take();
+    /// A wave that was taken is on the film.
+    void finish(const Wave& wave);
     /// No more waves, and nobody waits any longer.
-    void give_up();
+    void stop();
+    /// After a stop, once all waves that were taken are finished.
+    void go_on() { stopped_ = false; }
+
+    /// What is on the film, when no wave is under way.
+    const SampleSet& done() const { return done_; }
+    /// Samples that are not on the film, of a pixel of a block each.
+    std::int64_t left() const { return left_; }
 
 private:
-    int blocks_, samples_, blocks_per_wave_, samples_per_wave_;
-    int next_block_ = 0, next_sample_ = 0;
-    std::vector<int> done_; ///< samples on the film, for each group of blocks
-    double total_done_ = 0;
+    bool is_free(const SampleRange& range, const Wave& taken) const;
+    SampleRange take_piece(int samples, int blocks);
+    Wave next_wave();
+
+    WaveLimits limits_;
+    std::deque<SampleRange> todo_;
+    std::vector<Wave> under_way_;
+    SampleSet done_;
+    std::atomic<std::int64_t> left_ = 0;
+    bool stopped_ = false;
     std::mutex mutex_;
     std::condition_variable changed_;
 };

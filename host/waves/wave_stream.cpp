@@ -8,8 +8,9 @@ namespace parhelion {
 WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs,
                        const WorkSizes& s)
     : queue_(device.context, device.device.handle, CL_QUEUE_PROFILING_ENABLE),
-      no_film_(device.context, "film", 0), outside_(device.context, "outside", 1),
-      checked_(programs.checked), work_group_size_(s.work_group_size) {
+      no_film_(device.context, "film", 0), band_blocks_(s.film.band_blocks),
+      outside_(device.context, "outside", 1), checked_(programs.checked),
+      work_group_size_(s.work_group_size) {
     for (std::size_t stage = 0; stage < stage_count; stage++)
         kernels_.push_back(programs.programs[stage].kernel(stage_names[stage]));
     work_ = wave_buffers(device.context, queue_, buffer_counts(s));
@@ -17,20 +18,29 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
     counts_.resize(work_.counts.count());
 }
 
-void WaveStream::bind(const SceneBuffers& scene, const Buffer<cl_uint>& film,
+void WaveStream::bind(const SceneBuffers& scene, const std::vector<Buffer<cl_uint>>& films,
                       const RenderParams& params) {
+    films_.clear();
+    for (const Buffer<cl_uint>& film : films)
+        films_.push_back(film.handle());
     for (std::size_t stage = 0; stage < stage_count; stage++) {
         bool writes_film = static_cast<Stage>(stage) == Stage::accumulate;
-        const Buffer<cl_uint>& of_stage = writes_film ? film : no_film_;
+        const Buffer<cl_uint>& of_stage = writes_film ? films.front() : no_film_;
         bind_arguments(kernels_[stage], scene, work_, of_stage, params);
         if (checked_) bind_bounds(kernels_[stage], scene, work_, of_stage, outside_);
         kernels_[stage].setArg(depth_argument, 0);
     }
 }
 
-void WaveStream::begin_wave(const WaveParams& wave) {
+void WaveStream::begin_wave(const Wave& wave) {
+    blocks_ = wave_blocks(wave);
+    queue_.enqueueWriteBuffer(work_.wave_blocks.handle(), CL_FALSE, 0,
+                              blocks_.size() * sizeof(WaveBlock), blocks_.data());
+    const WaveParams params = wave_params(wave, band_blocks_);
     for (cl::Kernel& kernel : kernels_)
-        kernel.setArg(wave_argument, wave);
+        kernel.setArg(wave_argument, params);
+    kernels_[static_cast<std::size_t>(Stage::accumulate)].setArg(
+        film_argument, films_[static_cast<std::size_t>(wave.band)]);
 }
 
 void WaveStream::launch(Stage stage, int depth, int work_items) {

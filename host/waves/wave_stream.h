@@ -3,6 +3,7 @@
 
 #include "host/waves/buffers.h"
 #include "host/waves/stage_programs.h"
+#include "host/waves/wave.h"
 
 #include <array>
 #include <span>
@@ -14,11 +15,6 @@ namespace parhelion {
 struct StageTime {
     double kernel_seconds = 0;
     std::size_t launches = 0;
-
-    StageTime& operator+=(const StageTime& other) {
-        kernel_seconds += other.kernel_seconds, launches += other.launches;
-        return *this;
-    }
 };
 
 /// A WaveDevice. Streams of one render may be used by a thread each.
@@ -26,10 +22,12 @@ class WaveStream {
 public:
     WaveStream(const RenderDevice& device, const StagePrograms& programs, const WorkSizes& sizes);
 
-    /// Binds buffers and parameters to every kernel.
-    void bind(const SceneBuffers& scene, const Buffer<cl_uint>& film, const RenderParams& params);
+    /// Binds buffers and parameters to every kernel. `films`: bands of one size, of the sizes'
+    /// layout; they must outlive the stream.
+    void bind(const SceneBuffers& scene, const std::vector<Buffer<cl_uint>>& films,
+              const RenderParams& params);
 
-    void begin_wave(const WaveParams& wave);
+    void begin_wave(const Wave& wave);
     void launch(Stage stage, int depth, int work_items);
     /// Of all segments after the last launch; waits for it.
     std::span<const int> read_counts();
@@ -55,7 +53,10 @@ private:
     /// Bound where a stage leaves the film alone, or the driver would let streams wait for each
     /// other.
     Buffer<cl_uint> no_film_;
-    Buffer<cl_uint> outside_; ///< of checked kernels
+    std::vector<cl::Buffer> films_;
+    int band_blocks_;
+    std::vector<WaveBlock> blocks_; ///< of the wave
+    Buffer<cl_uint> outside_;       ///< of checked kernels
     bool checked_;
     int work_group_size_;
     std::vector<std::pair<std::size_t, cl::Event>> pending_;

@@ -2,13 +2,9 @@
 // runs the stages.
 #pragma once
 
-#include "host/clock.h"
-#include "host/progress.h"
 #include "host/waves/stages.h"
 #include "host/waves/wave_schedule.h"
 #include "host/waves/work_sizes.h"
-
-#include <fmt/format.h>
 
 #include <concepts>
 #include <future>
@@ -20,7 +16,7 @@ namespace parhelion {
 
 /// Runs the stages of one wave at a time.
 template<class Device>
-concept WaveDevice = requires(Device& device, const WaveParams& wave, Stage stage, int depth,
+concept WaveDevice = requires(Device& device, const Wave& wave, Stage stage, int depth,
                               int work_items) {
     device.begin_wave(wave);
     device.launch(stage, depth, work_items);
@@ -42,7 +38,7 @@ inline WaveLoop wave_loop(const WorkSizes& sizes, const RenderParams& params,
 
 /// All bounces of one wave, then its samples to the film.
 template<WaveDevice Device>
-void trace_wave(Device& device, const WaveParams& wave, const WaveLoop& loop) {
+void trace_wave(Device& device, const Wave& wave, const WaveLoop& loop) {
     device.begin_wave(wave);
     device.launch(Stage::generate, 0, loop.segments);
     for (int depth = 0; depth < loop.max_depth; depth++) {
@@ -56,38 +52,27 @@ void trace_wave(Device& device, const WaveParams& wave, const WaveLoop& loop) {
         if (loop.next_event && shadow_rays > 0) device.launch(Stage::shadow, depth, loop.segments);
         if (paths == 0) break;
     }
-    device.launch(Stage::accumulate, 0, wave.block_count);
+    device.launch(Stage::accumulate, 0, wave.blocks());
     device.end_wave();
 }
 
-/// Which part of a picture's work a film is.
-struct Share {
-    double before = 0, whole = 1; ///< of all: what is done already, and what the film adds
-
-    double at(double done) const { return before + whole * done; }
-};
-
-/// All waves of a film. A host thread for each of several devices: while one waits for the last
-/// work-items of a stage, the other's are there to be done.
-template<WaveDevice Device>
-void trace_film(std::span<Device> devices, const WorkSizes& sizes, int samples,
-                const WaveLoop& loop, Progress& progress, Share share = {}) {
-    auto start = Clock::now();
-    int blocks = static_cast<int>(sizes.film.window.tiles());
-    double paths = static_cast<double>(samples) * blocks * BLOCK_PIXELS;
-    WaveSchedule schedule(blocks, samples, sizes.blocks_per_wave, sizes.samples_per_wave);
-    std::mutex showing;
+/// Waves until there are none left. A host thread for each of several devices: while one waits for
+/// the last work-items of a stage, the other's are there to be done. `on_wave` is called after each
+/// wave, by one thread at a time; it may stop the schedule.
+template<WaveDevice Device, class OnWave>
+void trace_waves(std::span<Device> devices, WaveSchedule& schedule, const WaveLoop& loop,
+                 const OnWave& on_wave) {
+    std::mutex telling;
     auto run = [&](Device& device) {
         try {
             while (auto wave = schedule.take()) {
                 trace_wave(device, *wave, loop);
-                std::scoped_lock lock(showing);
-                double done = schedule.finish(*wave);
-                double rate = done * paths / seconds_since(start) / 1e6;
-                progress.update(share.at(done), fmt::format("{:.3f} Mpaths/s", rate));
+                std::scoped_lock lock(telling);
+                schedule.finish(*wave);
+                on_wave();
             }
         } catch (...) {
-            schedule.give_up();
+            schedule.stop();
             throw;
         }
     };

@@ -51,10 +51,11 @@ WorkSizes work_sizes(const FilmLayout& film, int samples, int lanes, const WorkS
 
 BufferCounts buffer_counts(const WorkSizes& s) {
     auto segments = static_cast<std::size_t>(s.segments);
-    auto blocks = static_cast<std::size_t>(s.blocks_per_wave);
+    auto blocks = static_cast<std::size_t>(s.block_capacity());
     return {.path_state = path_word_count * s.state_stride(),
             .shadow_state = shadow_word_count * s.state_stride(),
             .results = static_cast<std::size_t>(s.film.result_channels()) * s.result_stride(),
+            .wave_blocks = blocks,
             .counts = 2 * segments,
             // Of segments, and in accumulate of blocks.
             .statistics = statistic_count * std::max(segments, blocks),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/film/film_layout.h"
+#include "host/waves/wave_schedule.h"
 
 #include <cstddef>
 
@@ -28,13 +29,19 @@ struct WorkSizes {
     std::size_t state_stride() const {
         return odd_lines(static_cast<std::size_t>(segments) * segment_stride);
     }
+    /// Of a wave, of one sample each.
+    int block_capacity() const { return path_capacity / BLOCK_PIXELS; }
+    WaveLimits wave_limits() const {
+        return {samples_per_wave, film.band_blocks, block_capacity()};
+    }
 };
 
 /// `split.streams` must be chosen. Throws InputError for more paths than a device counts.
 WorkSizes work_sizes(const FilmLayout& film, int samples, int lanes, const WorkSplit& split);
 
 #define BUFFER_COUNT(type, name) std::size_t name;
-/// Elements of the work buffers: those of one stream, and the film, which all streams share.
+/// Elements of the work buffers: those of one stream, and a band of the film, which all streams
+/// share.
 struct BufferCounts {
     WORK_BUFFERS(BUFFER_COUNT)
 };

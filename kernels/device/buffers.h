@@ -44,6 +44,7 @@
 //   path_state    words of PATH_FIELDS x state_stride: live paths, packed at the front of each segment
 //   shadow_state  words of SHADOW_FIELDS x state_stride: shadow rays, likewise
 //   results       RESULT_CHANNELS x result_stride: what each path slot has gathered
+//   wave_blocks   what the wave has samples of
 //   counts        2 a segment: live paths, shadow rays
 //   statistics    STATISTICS and FAULTS a segment
 //   bad_samples   BAD_SAMPLE_FIELDS a block of the film: its first sample that was not finite
@@ -51,7 +52,7 @@
 //                 holds a tile a block
 #define WAVE_BUFFERS(X)                                                                            \
     X(float, path_state) X(float, shadow_state) X(float, results)                                  \
-    X(int, counts) X(ulong, statistics) X(int, bad_samples)
+    X(WaveBlock, wave_blocks) X(int, counts) X(ulong, statistics) X(int, bad_samples)
 #define WORK_BUFFERS(X) WAVE_BUFFERS(X) X(uint, film)
 
 // The lists of states: type of a field in a lane, name, whether anything needs it.

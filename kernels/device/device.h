@@ -17,6 +17,7 @@
 #define WORK_int int
 #define WORK_uint uint
 #define WORK_ulong ulong
+#define WORK_WaveBlock WaveBlock
 #define WORK_PARAMETER(type, name) global WORK_##type *restrict name,
 #define KERNEL_PARAMETERS                                                                          \
     SCENE_BUFFERS(SCENE_PARAMETER)                                                                 \

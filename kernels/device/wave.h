@@ -11,18 +11,21 @@
 
 #define BLOCK_PARTS (BLOCK_PIXELS / LANES)
 
-/// The block of a packet: a block's slots are whole packets.
-FN int slot_block(WaveParams w, int slot) {
-    return w.first_block + slot / (BLOCK_PIXELS * w.sample_count);
+/// The block that is the n-th of its wave.
+FN WaveBlock wave_block(global const WaveBlock* blocks, int n) {
+    return AT(global const WaveBlock, blocks, n);
 }
+
+/// The place in its wave of a packet's block: a block's slots are whole packets.
+FN int slot_block(WaveParams w, int slot) { return slot / (BLOCK_PIXELS * w.sample_count); }
 
 typedef struct {
     Int x, y;   // of the pixel in its block
     Int sample; // its number
 } SlotSample;
 
-/// What the slots from `slot` on stand for.
-FN SlotSample slot_sample(WaveParams w, int slot) {
+/// What the slots from `slot` on stand for, whose block's samples begin with first_sample.
+FN SlotSample slot_sample(WaveParams w, int first_sample, int slot) {
     int in_block = slot % (BLOCK_PIXELS * w.sample_count);
     Int pixel = (Int)(in_block / w.sample_count);
     Int sample = (Int)(in_block % w.sample_count) + LANE_INDEX;
@@ -34,7 +37,7 @@ FN SlotSample slot_sample(WaveParams w, int slot) {
     SlotSample s;
     s.x = (pixel & 1) | ((pixel >> 1) & 2);
     s.y = ((pixel >> 1) & 1) | ((pixel >> 2) & 2);
-    s.sample = w.first_sample + sample;
+    s.sample = first_sample + sample;
     return s;
 }
 

@@ -40,7 +40,7 @@ const char* left_buffer(const Scene& scene, const DeviceScene& flat) {
     waves.upload(flat);
     waves.allocate(sizes, render_params(scene, flat, sizes, aovs));
     WaveStream& stream = waves.streams().front();
-    stream.begin_wave({0, sizes.blocks_per_wave, 0, sizes.samples_per_wave});
+    stream.begin_wave({{{0, sizes.blocks_per_wave, 0, sizes.samples_per_wave}}});
     for (Stage stage : {Stage::generate, Stage::intersect, Stage::shade})
         stream.launch(stage, 0, sizes.segments);
     stream.end_wave();

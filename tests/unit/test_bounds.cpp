@@ -53,8 +53,8 @@ void run_every_stage(const Scene& scene, const DeviceScene& whole, const DeviceS
     WorkSizes sizes = work_sizes(film_layout(scene, aovs), 4, 1, split);
     WaveMemory<float> memory(sizes);
     HostLaunch<float> launch{scene_arrays(seen), render_params(scene, whole, sizes, aovs),
-                             whole.features.on(), WaveParams{0, sizes.blocks_per_wave, 0, 4},
-                             memory};
+                             whole.features.on(), WaveParams{}, memory};
+    set_wave(launch, Wave{{{0, sizes.blocks_per_wave, 0, 4}}});
     auto run = [&](Stage stage, int depth, int work_items) {
         for (int number = 0; number < work_items; number++)
             run_work_item(stage, launch, depth, number);

@@ -27,7 +27,7 @@ public:
     Watched(const HostLaunch<Real>& launch, const DeviceScene& scene)
         : launch_(launch), scene_(scene) {}
 
-    void begin_wave(const WaveParams& wave) { launch_.wave = wave; }
+    void begin_wave(const Wave& wave) { set_wave(launch_, wave); }
     void launch(Stage stage, int depth, int work_items) {
         for (int number = 0; number < work_items; number++)
             run_work_item(stage, launch_, depth, number);
@@ -101,7 +101,7 @@ void check_rays() {
     RenderParams params = render_params(scene, flat, sizes, aovs);
     FeatureSet features = flat.features.on();
     Watched<Real> device({scene_arrays(flat), params, features, WaveParams{}, memory}, flat);
-    trace_wave(device, WaveParams{0, sizes.blocks_per_wave, 0, sizes.samples_per_wave},
+    trace_wave(device, Wave{{{0, sizes.blocks_per_wave, 0, sizes.samples_per_wave}}},
                wave_loop(sizes, params, features));
     CHECK(device.camera == scene.film.width * scene.film.height * sizes.samples_per_wave);
     for (const char* of : {"path", "shadow ray"}) {

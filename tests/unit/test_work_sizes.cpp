@@ -58,8 +58,10 @@ TEST_CASE("Work sizes: buffers are as long as what lies in them", "[waves]") {
         std::size_t results = 3 + 1 + 1 + 3 + 1;
         CHECK(holds(n.results, results, s.path_capacity));
         CHECK(n.counts == 2 * segments);
-        // Rays of three kinds and seven faults, of a segment or a block.
-        CHECK(n.statistics == 10 * std::max(segments, static_cast<std::size_t>(s.blocks_per_wave)));
+        // Rays of three kinds and seven faults, of a segment or a block, of one sample each.
+        const auto in_wave = static_cast<std::size_t>(s.path_capacity) / 16;
+        CHECK(n.statistics == 10 * std::max(segments, in_wave));
+        CHECK(n.wave_blocks == in_wave);
         // Known, sample, x, y, fault and bounce.
         CHECK(n.bad_samples == 6 * blocks);
         // Both parts of the sums of these, of three squares and of seven numbers of how they

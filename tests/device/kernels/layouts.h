@@ -26,7 +26,9 @@
                             LAYOUT_TYPE(RenderParams) LAYOUT_FIELD(RenderParams, camera)           \
                                 RENDER_FIELDS(RENDER_LAYOUT)                                       \
                                     LAYOUT_FIELD(RenderParams, aov_offset) LAYOUT_TYPE(WaveParams) \
-                                        LAYOUT_FIELD(WaveParams, first_block)                      \
-                                            LAYOUT_FIELD(WaveParams, block_count)                  \
-                                                LAYOUT_FIELD(WaveParams, first_sample)             \
-                                                    LAYOUT_FIELD(WaveParams, sample_count)
+                                        LAYOUT_FIELD(WaveParams, block_count)                      \
+                                            LAYOUT_FIELD(WaveParams, sample_count)                 \
+                                                LAYOUT_FIELD(WaveParams, film_first)               \
+                                                    LAYOUT_TYPE(WaveBlock)                         \
+                                                        LAYOUT_FIELD(WaveBlock, block)             \
+                                                            LAYOUT_FIELD(WaveBlock, first_sample)

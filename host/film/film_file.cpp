@@ -1,0 +1,192 @@
+// Films in files.
+#include "host/film/film_file.h"
+
+#include "host/digest.h"
+#include "host/error.h"
+#include "host/film/film_header.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace parhelion {
+namespace {
+
+/// Words are in the order of the machine, which a file says.
+constexpr std::array<std::uint32_t, 4> magic{0x4c485250, 0x4d4c4946, 0x01020304, 1};
+
+struct Begin {
+    std::array<std::uint32_t, 4> magic;
+    std::uint64_t header_bytes;
+    std::uint64_t checksum; ///< of the header, padded with zeros to whole words
+};
+
+/// Before the digits of a row of pixels of one channel.
+struct RowBegin {
+    std::uint32_t y;
+    std::uint16_t channel;
+    std::uint8_t first, count; ///< digits
+    std::uint64_t checksum;
+};
+
+constexpr std::uint32_t end_mark =
+    0xffffffff; // as y of a last row, whose checksum is how many there are
+
+std::vector<std::uint32_t> words_of(const std::string& text) {
+    std::vector<std::uint32_t> words((text.size() + 3) / 4);
+    std::memcpy(words.data(), text.data(), text.size());
+    return words;
+}
+
+template<class T>
+void put(std::ostream& out, const T& value) {
+    out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void put_words(std::ostream& out, std::span<const std::uint32_t> words) {
+    out.write(reinterpret_cast<const char*>(words.data()),
+              static_cast<std::streamsize>(words.size_bytes()));
+}
+
+bool is_zero(std::span<const std::uint32_t> words) {
+    return std::all_of(words.begin(), words.end(), [](std::uint32_t w) { return w == 0; });
+}
+
+/// Writes a row, if there is something in it.
+bool put_row(std::ostream& out, int y, int channel, const SumRow& row) {
+    int first = 0, end = EXACT_WORDS;
+    while (first < end && is_zero(row.digit(first)))
+        first++;
+    while (first < end && is_zero(row.digit(end - 1)))
+        end--;
+    if (first == end) return false;
+    const std::span digits(row.digit(first).data(), (end - first) * row.width());
+    put(out, RowBegin{static_cast<std::uint32_t>(y), static_cast<std::uint16_t>(channel),
+                      static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(end - first),
+                      checksum_of(digits)});
+    put_words(out, digits);
+    return true;
+}
+
+void put_film(std::ostream& out, const FilmHeader& header, const FilmSums& sums) {
+    const std::vector<std::uint32_t> text = words_of(to_json(header).dump());
+    put(out, Begin{magic, text.size() * 4, checksum_of(text)});
+    put_words(out, text);
+    std::uint64_t rows = 0;
+    SumRow row(header.content.film.crop_width);
+    for (int y = 0; y < header.content.film.crop_height; y++)
+        for (int channel = 0; channel < header.content.channels(); channel++) {
+            row.clear();
+            sums.add_row(channel, y, row);
+            rows += put_row(out, y, channel, row);
+        }
+    put(out, RowBegin{end_mark, 0, 0, 0, rows});
+}
+
+} // namespace
+
+void write_film(const std::string& file, const FilmHeader& header, const FilmSums& sums,
+                Existing existing) {
+    PendingFile pending(file, existing);
+    std::ofstream out(pending.temporary_name(), std::ios::binary);
+    put_film(out, header, sums);
+    out.close();
+    if (!out)
+        throw OutputError(fmt::format("{}: cannot be written: {}", file, std::strerror(errno)));
+    pending.commit();
+}
+
+struct FilmFile::Row {
+    std::uint64_t at = 0; ///< of the digits; 0: there are none
+    std::uint8_t first = 0, count = 0;
+    std::uint64_t checksum = 0;
+};
+
+FilmFile::FilmFile(const std::string& file) : name_(file) {
+    descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat status {};
+    if (descriptor_ < 0 || fstat(descriptor_, &status) != 0)
+        throw InputError(fmt::format("{}: cannot be opened: {}", file, std::strerror(errno)));
+    size_ = static_cast<std::uint64_t>(status.st_size);
+    try {
+        if (!S_ISREG(status.st_mode)) throw InputError("it is no file");
+        read_header();
+        find_rows();
+    } catch (const std::exception& e) {
+        ::close(descriptor_);
+        throw InputError(fmt::format("{}: is no whole film of this program: {} (accepted: what "
+                                     "--checkpoint and --shard write)",
+                                     file, e.what()));
+    }
+}
+
+FilmFile::~FilmFile() { ::close(descriptor_); }
+
+void FilmFile::read(std::uint64_t at, void* bytes, std::size_t count) const {
+    if (at > size_ || count > size_ - at) throw InputError("it ends too early");
+    auto* to = static_cast<char*>(bytes);
+    while (count > 0) {
+        const ssize_t got = pread(descriptor_, to, count, static_cast<off_t>(at));
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) throw InputError("it cannot be read");
+        to += got, at += static_cast<std::uint64_t>(got), count -= static_cast<std::size_t>(got);
+    }
+}
+
+void FilmFile::read_header() {
+    Begin begin{};
+    read(0, &begin, sizeof begin);
+    if (begin.magic != magic) throw InputError("it begins otherwise");
+    if (begin.header_bytes > size_ || begin.header_bytes % 4 != 0)
+        throw InputError("it ends too early");
+    std::vector<std::uint32_t> text(begin.header_bytes / 4);
+    read(sizeof begin, text.data(), begin.header_bytes);
+    if (checksum_of(text) != begin.checksum) throw InputError("its header is damaged");
+    std::string json(reinterpret_cast<const char*>(text.data()), begin.header_bytes);
+    while (!json.empty() && json.back() == '\0')
+        json.pop_back();
+    header_ = film_header(nlohmann::json::parse(json));
+    rows_begin_ = sizeof begin + begin.header_bytes;
+}
+
+void FilmFile::find_rows() {
+    const auto width = static_cast<std::uint64_t>(header_.content.film.crop_width);
+    const auto height = static_cast<std::uint32_t>(header_.content.film.crop_height);
+    const auto channels = static_cast<std::size_t>(header_.content.channels());
+    rows_.resize(height * channels);
+    std::uint64_t at = rows_begin_, count = 0;
+    for (RowBegin row{};; count++) {
+        read(at, &row, sizeof row);
+        at += sizeof row;
+        if (row.y == end_mark) {
+            if (row.checksum != count || at != size_) throw InputError("it ends otherwise");
+            return;
+        }
+        if (row.y >= height || row.channel >= channels || row.first + row.count > EXACT_WORDS)
+            throw InputError("a row lies outside of it");
+        Row& known = rows_[row.y * channels + row.channel];
+        if (known.at != 0) throw InputError("a row is there twice");
+        known = {at, row.first, row.count, row.checksum};
+        at += 4 * width * row.count;
+    }
+}
+
+void FilmFile::add_row(int channel, int y, SumRow& row) const {
+    const Row& known = rows_[y * header_.content.channels() + channel];
+    if (known.at == 0) return;
+    SumRow read_row(static_cast<int>(row.width()));
+    const std::span digits(read_row.digit(known.first).data(), known.count * row.width());
+    read(known.at, digits.data(), digits.size_bytes());
+    if (checksum_of(digits) != known.checksum)
+        throw InputError(fmt::format("{}: is damaged in row {} of its picture", name_, y));
+    add_digits(row, 0, row.width(), [&](int k) { return read_row.digit(k).data(); });
+}
+
+} // namespace parhelion

@@ -1,0 +1,83 @@
+// Films in files: what a checkpoint and a part of a render are kept as.
+//
+// A file begins with what it is of (FilmHeader); then come the rows of pixels, from the top, of
+// each the sums of its channels without error, leaving out digits that are 0 in all of the row.
+// Films whose samples are others of one render add up to that of the render, to the bit, in any
+// order.
+#pragma once
+
+#include "host/film/film_content.h"
+#include "host/film/film_state.h"
+#include "host/film/film_sums.h"
+#include "host/image/image.h"
+#include "host/image/output.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace parhelion {
+
+/// What tells one render from another, part by part: a name for the user ("--seed", "the scene")
+/// and the value or the digest of what it stands for.
+using RenderKey = std::vector<std::pair<std::string, std::string>>;
+
+struct FilmHeader {
+    RenderKey key;
+    FilmContent content;
+    int blocks = 0; ///< of the sampled window
+    int samples_per_pixel = 0;
+    FilmState state;
+    /// Of the picture.
+    std::vector<std::pair<std::string, MetadataValue>> metadata;
+
+    /// The samples of the whole render.
+    SampleSet all() const { return all_samples(blocks, samples_per_pixel); }
+};
+
+/// The file appears whole or not at all, as PendingFile says. Throws OutputError.
+void write_film(const std::string& file, const FilmHeader& header, const FilmSums& sums,
+                Existing existing);
+
+/// A film in a file; rows are read from there when they are asked for.
+class FilmFile : public FilmSums {
+public:
+    /// Throws InputError, in one line, for what is no film, is damaged or not whole.
+    explicit FilmFile(const std::string& file);
+    ~FilmFile() override;
+
+    const std::string& name() const { return name_; }
+    const FilmHeader& header() const { return header_; }
+    /// Throws InputError for a row that is damaged.
+    void add_row(int channel, int y, SumRow& row) const override;
+
+private:
+    struct Row;
+    void read(std::uint64_t at, void* bytes, std::size_t count) const;
+    void read_header();
+    void find_rows();
+
+    std::string name_;
+    int descriptor_ = -1;
+    std::uint64_t size_ = 0, rows_begin_ = 0;
+    FilmHeader header_;
+    std::vector<Row> rows_; ///< by pixel row and channel
+};
+
+/// The sums of several films of one size.
+class AddedFilms : public FilmSums {
+public:
+    /// They must outlive it.
+    explicit AddedFilms(std::vector<const FilmSums*> films) : films_(std::move(films)) {}
+
+    void add_row(int channel, int y, SumRow& row) const override {
+        for (const FilmSums* film : films_)
+            film->add_row(channel, y, row);
+    }
+
+private:
+    std::vector<const FilmSums*> films_;
+};
+
+} // namespace parhelion

@@ -1,0 +1,90 @@
+// What a film's file begins with, as JSON.
+#include "host/film/film_header.h"
+
+#include "host/error.h"
+
+#include <nlohmann/json.hpp>
+
+namespace parhelion {
+namespace {
+
+nlohmann::json to_json(const SampleRange& r) {
+    return {r.first_block, r.end_block, r.first, r.end};
+}
+
+nlohmann::json to_json(const BadSample& b) { return {b.x, b.y, b.sample, b.fault, b.bounce}; }
+
+template<class T>
+nlohmann::json list(const std::vector<T>& values) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const T& value : values)
+        json.push_back(to_json(value));
+    return json;
+}
+
+nlohmann::json to_json(const FilmState& state) {
+    return {{"samples", list(state.samples)},
+            {"counts", state.counts},
+            {"bad_samples", list(state.bad_samples)}};
+}
+
+void require(bool holds, const char* what) {
+    if (!holds) throw InputError(what);
+}
+
+FilmState state_of(const nlohmann::json& json, const SampleSet& all) {
+    FilmState state;
+    for (const nlohmann::json& r : json.at("samples"))
+        state.samples.push_back({r.at(0), r.at(1), r.at(2), r.at(3)});
+    // Every range is one of samples that there are, and none is in two of them.
+    for (const SampleRange& r : state.samples)
+        require(r.first_block < r.end_block && r.first < r.end, "a range of samples is empty");
+    require((state.samples | state.samples) == state.samples && (state.samples - all).empty(),
+            "its samples are none of its render");
+    state.counts = json.at("counts").get<TraceCounts>();
+    for (const nlohmann::json& b : json.at("bad_samples")) {
+        state.bad_samples.push_back({b.at(0), b.at(1), b.at(2), b.at(3), b.at(4)});
+        const int fault = state.bad_samples.back().fault;
+        require(fault >= 0 && fault < fault_count, "there is no such fault");
+    }
+    return state;
+}
+
+/// Name and value each.
+nlohmann::json metadata_json(const std::vector<std::pair<std::string, MetadataValue>>& metadata) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const auto& [name, value] : metadata)
+        json.push_back({name, std::visit([](const auto& v) { return nlohmann::json(v); }, value)});
+    return json;
+}
+
+MetadataValue metadata_value(const nlohmann::json& json) {
+    if (json.is_string()) return json.get<std::string>();
+    if (json.is_number_integer()) return json.get<std::int64_t>();
+    return json.get<double>();
+}
+
+} // namespace
+
+nlohmann::json to_json(const FilmHeader& h) {
+    return {{"key", h.key},
+            {"content", to_json(h.content)},
+            {"blocks", h.blocks},
+            {"samples_per_pixel", h.samples_per_pixel},
+            {"state", to_json(h.state)},
+            {"metadata", metadata_json(h.metadata)}};
+}
+
+FilmHeader film_header(const nlohmann::json& json) {
+    FilmHeader h;
+    h.key = json.at("key").get<RenderKey>();
+    h.content = film_content(json.at("content"));
+    h.blocks = json.at("blocks"), h.samples_per_pixel = json.at("samples_per_pixel");
+    require(h.blocks > 0 && h.samples_per_pixel > 0, "it is of no samples");
+    h.state = state_of(json.at("state"), h.all());
+    for (const nlohmann::json& entry : json.at("metadata"))
+        h.metadata.emplace_back(entry.at(0), metadata_value(entry.at(1)));
+    return h;
+}
+
+} // namespace parhelion

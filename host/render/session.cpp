@@ -1,0 +1,98 @@
+// A render that goes on step by step.
+#include "host/render/session.h"
+
+#include "host/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace parhelion {
+namespace {
+
+/// Below that number samples come in whole groups.
+int whole_samples(int samples_per_pixel) { return samples_per_pixel / FILM_SAMPLES * FILM_SAMPLES; }
+
+/// Groups are added up as one: a film that has a part of one cannot get the rest of it.
+void check_groups(const SampleSet& samples, int samples_per_pixel) {
+    for (const SampleRange& range : samples) {
+        if (range.end > samples_per_pixel)
+            throw InputError(fmt::format("has {} samples a pixel, more than the {} that are asked "
+                                         "for (--spp)",
+                                         range.end, samples_per_pixel));
+        if (range.first % FILM_SAMPLES != 0 ||
+            (range.end % FILM_SAMPLES != 0 && range.end != samples_per_pixel))
+            throw InputError(fmt::format("ends within a group of {} samples, at sample {}: it "
+                                         "cannot be gone on with to {} samples a pixel",
+                                         FILM_SAMPLES, range.end, samples_per_pixel));
+    }
+}
+
+} // namespace
+
+Session::Session(OpenedRender opened, const Shard& shard, Progress& progress)
+    : opened_(std::move(opened)), progress_(progress),
+      all_(shard_samples(shard, opened_.blocks, opened_.samples_per_pixel)) {
+    plan();
+}
+
+void Session::plan() {
+    const SampleSet todo = all_ - taken_up_.samples;
+    const int samples = opened_.samples_per_pixel, whole = whole_samples(samples);
+    const WaveLimits limits = opened_.engine->wave_limits();
+    groups_ = std::make_unique<WaveSchedule>(samples_between(todo, 0, whole), limits);
+    rest_ = std::make_unique<WaveSchedule>(samples_between(todo, whole, samples), limits);
+    todo_ = sample_count(todo);
+    has_rest_ = !samples_between(taken_up_.samples, whole, samples).empty();
+}
+
+void Session::take_up(const FilmSums& film, const FilmState& state) {
+    check_groups(state.samples, opened_.samples_per_pixel);
+    opened_.engine->fill_film(film);
+    taken_up_ = state;
+    plan();
+}
+
+void Session::step(const std::function<bool()>& stop) {
+    if (finished()) return;
+    if (!started_) {
+        progress_.start("rendering");
+        started_ = Clock::now();
+    }
+    const bool in_rest = groups_->left() == 0;
+    if (in_rest) has_rest_ = true;
+    WaveSchedule& schedule = in_rest ? *rest_ : *groups_;
+    const auto start = Clock::now();
+    schedule.go_on();
+    opened_.engine->trace(schedule, [&] {
+        if (stop()) schedule.stop();
+        const auto done = static_cast<double>(todo_ - left());
+        const double rate = done * BLOCK_PIXELS / seconds_since(*started_) / 1e6;
+        progress_.update(done / static_cast<double>(todo_), fmt::format("{:.3f} Mpaths/s", rate));
+    });
+    seconds_ += seconds_since(start);
+}
+
+FilmState Session::state() {
+    FilmState state = taken_up_;
+    state.add({groups_->done() | rest_->done(), opened_.engine->counts(), {}});
+    if (non_finite_samples(opened_.engine->counts()) > 0)
+        state.add({{}, {}, opened_.engine->bad_samples()});
+    return state;
+}
+
+RenderReport Session::report() {
+    RenderReport report = opened_.report;
+    report.render_seconds = seconds_;
+    opened_.engine->report(report);
+    add_state(state(), report);
+    const auto rate = [&](std::uint64_t count) {
+        return seconds_ > 0 ? static_cast<double>(count) / seconds_ / 1e6 : 0.0;
+    };
+    if (started_)
+        progress_.finish(fmt::format("{:.2f} Mpaths/s, {:.2f} Mrays/s", rate(report.paths),
+                                     rate(report.rays())));
+    return report;
+}
+
+} // namespace parhelion

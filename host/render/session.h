@@ -1,0 +1,59 @@
+// A render that goes on step by step: what is on its film can be looked at, kept and taken up
+// between them.
+#pragma once
+
+#include "host/clock.h"
+#include "host/film/film_image.h"
+#include "host/progress.h"
+#include "host/render/engine.h"
+#include "host/render/shard.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace parhelion {
+
+class Session {
+public:
+    /// Of the samples of `shard`. `progress` must outlive it.
+    Session(OpenedRender opened, const Shard& shard, Progress& progress);
+
+    /// Puts a film of the same content on this one, which must be empty. Samples that are not of
+    /// this session count as well.
+    void take_up(const FilmSums& film, const FilmState& state);
+
+    /// Renders until `stop` says so, which is asked after every wave, or all whole groups of
+    /// samples (FILM_SAMPLES) are on the film, or, if they were before, until everything is.
+    void step(const std::function<bool()>& stop);
+
+    /// Whether everything is on the film.
+    bool finished() const { return left() == 0; }
+    /// Whether the film has whole groups of samples alone, so that a render of more samples a pixel
+    /// can go on from it.
+    bool in_whole_groups() const { return !has_rest_; }
+
+    const FilmContent& content() const { return opened_.content; }
+    /// What is on the film.
+    FilmState state();
+    std::unique_ptr<FilmSums> film() { return opened_.engine->film(); }
+    Image image() { return film_image(*film(), opened_.content); }
+    /// Closes the stage of progress.
+    RenderReport report();
+
+private:
+    void plan();
+    std::int64_t left() const { return groups_->left() + rest_->left(); }
+
+    OpenedRender opened_;
+    Progress& progress_;
+    SampleSet all_;
+    FilmState taken_up_;
+    std::unique_ptr<WaveSchedule> groups_, rest_;
+    std::int64_t todo_ = 0;
+    bool has_rest_ = false; ///< samples of a group that is not whole
+    std::optional<Clock::time_point> started_;
+    double seconds_ = 0; ///< of steps
+};
+
+} // namespace parhelion
