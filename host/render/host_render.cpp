@@ -45,7 +45,7 @@ RenderResult render_on_host(const Scene& scene, const RenderOptions& options, Pr
     RenderResult result;
     DeviceScene flat = flattened(scene, options.light_choice, progress, result.report);
     result.report.device = twice ? "host, double precision" : "host, single precision";
-    progress.start(fmt::format("rendering on the {}: slow", result.report.device));
+    progress.start("rendering", fmt::format("on the {}: slow", result.report.device));
     if (twice)
         render_flat<double>(scene, flat, options, progress, result);
     else

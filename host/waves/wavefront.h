@@ -8,8 +8,6 @@
 #include "host/waves/wave_schedule.h"
 #include "host/waves/work_sizes.h"
 
-#include <fmt/format.h>
-
 #include <concepts>
 #include <future>
 #include <mutex>
@@ -83,8 +81,7 @@ void trace_film(std::span<Device> devices, const WorkSizes& sizes, int samples,
                 trace_wave(device, *wave, loop);
                 std::scoped_lock lock(showing);
                 double done = schedule.finish(*wave);
-                double rate = done * paths / seconds_since(start) / 1e6;
-                progress.update(share.at(done), fmt::format("{:.3f} Mpaths/s", rate));
+                progress.update(share.at(done), done * paths / seconds_since(start));
             }
         } catch (...) {
             schedule.give_up();
