@@ -3,10 +3,12 @@
 
 #include "host/commands/compare.h"
 #include "host/commands/compile.h"
+#include "host/commands/completion.h"
 #include "host/commands/devices.h"
 #include "host/commands/doctor.h"
 #include "host/commands/exit_codes.h"
 #include "host/commands/info.h"
+#include "host/commands/manual.h"
 #include "host/commands/parameters.h"
 #include "host/commands/render.h"
 #include "host/commands/run_program.h"
@@ -25,7 +27,9 @@ std::vector<Subcommand> all_subcommands() {
             devices_subcommand(),
             doctor_subcommand(),
             stress_subcommand(run_by_other),
-            parameters_subcommand()};
+            parameters_subcommand(),
+            completion_subcommand(program_command_line),
+            manual_subcommand(program_command_line)};
 }
 
 CommandLine program_command_line() {
