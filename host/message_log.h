@@ -9,17 +9,13 @@
 namespace parhelion {
 
 /// From now on messages go to `file` as well: appended, a line each with the time (UTC) before it,
-/// written through at once. They wait until release_message_log: the file may turn out to be one
-/// that is read. Throws InputError for one that cannot be appended to, or is no log.
+/// written through at once. Throws InputError for one that cannot be appended to, or is no log.
 void open_message_log(const std::string& file);
 
-/// What waits is written.
-void release_message_log();
-
-/// From now on there is none; what waits is lost.
+/// From now on there is none.
 void close_message_log() noexcept;
 
-/// Its name; empty: there is none, or it waits.
+/// Its name; empty: there is none.
 std::string message_log_file();
 
 /// Each of the lines of `text`, where there is a log. What cannot be written is lost.

@@ -91,10 +91,9 @@ int run_render(const RenderCommand& command) {
 
     progress.start("loading", command.scene_file);
     auto start = Clock::now();
-    Scene scene = load_scene(command.scene_file, load_options(command));
+    Scene scene = load_scene(command.scene_file, messages.guarded(load_options(command)));
     apply_overrides(command, scene);
     check_distinct(outputs_of(command), files_of(scene));
-    messages.check_distinct_from(files_of(scene));
     note_lost_layers(command, scene);
     double load_seconds = seconds_since(start);
     progress.finish(fmt::format("{} shapes, {}x{} pixels, {} spp", scene.shapes.size(),

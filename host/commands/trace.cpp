@@ -33,9 +33,8 @@ int checked_sample(int sample, int samples_per_pixel) {
 
 int run_trace(const RenderCommand& command, const RenderMessages& messages) {
     check_trace(command);
-    Scene scene = load_scene(command.scene_file, load_options(command));
+    Scene scene = load_scene(command.scene_file, messages.guarded(load_options(command)));
     check_distinct({{"--json", command.json_file}}, files_of(scene));
-    messages.check_distinct_from(files_of(scene));
     apply_overrides(command, scene);
     Progress progress(Progress::mode_of(command.progress, command.quiet));
     for (const std::string& note : scene.notes)
