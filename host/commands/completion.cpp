@@ -29,7 +29,7 @@ int run_completion(const std::string& shell, const CommandLine& command_line) {
 
 } // namespace
 
-Subcommand completion_subcommand(std::function<CommandLine()> command_line) {
+Subcommand completion_subcommand(const std::function<CommandLine()>& command_line) {
     auto shell = std::make_shared<std::string>();
     return {
         .name = "completion",

@@ -13,6 +13,6 @@ std::string bash_completion(const CommandLine& command_line);
 std::string zsh_completion(const CommandLine& command_line);
 
 /// `command_line` gives the whole one when it is run: the subcommand is itself a part of it.
-Subcommand completion_subcommand(std::function<CommandLine()> command_line);
+Subcommand completion_subcommand(const std::function<CommandLine()>& command_line);
 
 } // namespace parhelion

@@ -123,7 +123,7 @@ std::string manual_page(const CommandLine& command_line) {
     return page + exit_codes_section();
 }
 
-Subcommand manual_subcommand(std::function<CommandLine()> command_line) {
+Subcommand manual_subcommand(const std::function<CommandLine()>& command_line) {
     return {
         .name = "man",
         .summary = "Print the manual page of this program",

@@ -11,6 +11,6 @@ namespace parhelion {
 std::string manual_page(const CommandLine& command_line);
 
 /// `command_line` gives the whole one when it is run: the subcommand is itself a part of it.
-Subcommand manual_subcommand(std::function<CommandLine()> command_line);
+Subcommand manual_subcommand(const std::function<CommandLine()>& command_line);
 
 } // namespace parhelion
