@@ -4,21 +4,48 @@
 
 #include "host/safe_text.h"
 
+#include <array>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace parhelion {
 
-/// Process exit codes; documented in `parhelion --help` and kept stable for scripts.
+/// Process exit codes, kept stable for scripts: X(name, number, meaning). What --help, README and
+/// the manual say of them is made from this list.
+#define EXIT_CODES(X)                                                                              \
+    X(ok, 0, "done")                                                                               \
+    X(different, 1,                                                                                \
+      "images differ (compare), a check does not hold (stress), a sample or a written value was "  \
+      "not finite or did not fit the file's format (render --strict), or something is "            \
+      "approximated (info --check)")                                                               \
+    X(bad_input, 2,                                                                                \
+      "unusable input: a line for each problem says where and what is accepted; nothing is "       \
+      "written")                                                                                   \
+    X(device_failure, 3, "device failure, or out of memory")                                       \
+    X(internal_failure, 4, "internal failure")                                                     \
+    X(output_failure, 5,                                                                           \
+      "a result could not be written: disk full, standard output closed, or a file of its name "   \
+      "was made meanwhile (the image is kept under the name that is told)")                        \
+    X(stopped, 99,                                                                                 \
+      "stopped by a signal or by --time-limit; what there is of the image is written: go on with " \
+      "--resume")
+
 enum class ExitCode {
-    ok = 0,
-    different = 1,
-    bad_input = 2,
-    device_failure = 3,
-    internal_failure = 4,
-    output_failure = 5
+#define X(name, number, meaning) name = number,
+    EXIT_CODES(X)
+#undef X
 };
+
+struct ExitCodeMeaning {
+    ExitCode code;
+    std::string_view meaning;
+};
+
+#define X(name, number, meaning) ExitCodeMeaning{ExitCode::name, meaning},
+inline constexpr std::array exit_code_meanings{EXIT_CODES(X)};
+#undef X
 
 /// A scene, file, or command line that cannot be used. `what()` is one line, without a trailing
 /// newline, or one for each thing that is wrong.

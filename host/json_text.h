@@ -16,4 +16,10 @@ std::string json_text(const Json& json) {
     return safe_text(json.dump(2, ' ', false, Json::error_handler_t::replace)) + '\n';
 }
 
+/// The same in one line.
+template<class Json>
+std::string json_line(const Json& json) {
+    return safe_text(json.dump(-1, ' ', false, Json::error_handler_t::replace)) + '\n';
+}
+
 } // namespace parhelion

@@ -1,79 +1,79 @@
 // Telling the user where a long piece of work is.
 #include "host/progress.h"
 
-#include "host/safe_text.h"
-#include "host/streams.h"
+#include "host/error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace parhelion {
-namespace {
 
-constexpr std::chrono::milliseconds terminal_interval{100};
-constexpr std::chrono::seconds line_interval{5};
+using State = ProgressEvent::State;
 
-double seconds(std::chrono::steady_clock::duration d) {
-    return std::chrono::duration<double>(d).count();
+Progress::Mode Progress::mode_of(const std::string& name, bool quiet) {
+    if (std::find(progress_names.begin(), progress_names.end(), name) == progress_names.end())
+        throw InputError(
+            fmt::format("--progress '{}': there are {}", name, fmt::join(progress_names, ", ")));
+    if (quiet && name != "auto")
+        throw InputError(fmt::format(
+            "--progress {}: with --quiet there is no progress (accepted: one of the two)", name));
+    if (quiet) return Mode::quiet;
+    if (name == "json") return Mode::json;
+    const bool terminal = name == "auto" ? isatty(STDERR_FILENO) != 0 : name == "terminal";
+    return terminal ? Mode::terminal : Mode::lines;
 }
 
-std::string duration_text(double s) {
-    if (s < 60.0) return fmt::format("{:.0f} s", s);
-    if (s < 3600.0)
-        return fmt::format("{:.0f} min {:02.0f} s", std::floor(s / 60.0),
-                           s - 60.0 * std::floor(s / 60.0));
-    return fmt::format("{:.1f} h", s / 3600.0);
+Progress::Progress(Mode mode) {
+    if (mode == Mode::terminal) places_.push_back({terminal_writer()});
+    if (mode == Mode::lines) places_.push_back({line_writer()});
+    if (mode == Mode::json) places_.push_back({json_writer()});
+    places_.push_back({log_writer()});
 }
 
-} // namespace
-
-Progress Progress::standard(bool quiet) {
-    if (quiet) return Progress(Mode::quiet);
-    return Progress(isatty(STDERR_FILENO) ? Mode::terminal : Mode::lines);
+double Progress::seconds() const {
+    return std::chrono::duration<double>(Clock::now() - started_).count();
 }
 
-void Progress::print(const std::string& text, bool last) {
-    const std::string line = as_one_line(text);
-    if (mode_ == Mode::terminal) {
-        show(fmt::format("\r{:<{}}{}", line, width_, last ? "\n" : ""));
-        width_ = last ? 0 : line.size();
-    } else {
-        show(line + '\n');
+void Progress::tell(const ProgressEvent& event) {
+    const Clock::time_point now = Clock::now();
+    for (Place& place : places_) {
+        if (event.state == State::update && now - place.written < place.writer->interval())
+            continue;
+        place.writer->write(event);
+        place.written = now;
     }
-    printed_ = Clock::now();
 }
 
-void Progress::start(const std::string& stage) {
-    stage_ = stage;
-    started_ = printed_ = Clock::now();
-    if (mode_ == Mode::terminal) print(stage_ + " ...", false);
+void Progress::start(const std::string& phase, const std::string& subject) {
+    phase_ = phase;
+    subject_ = subject;
+    started_ = Clock::now();
+    for (Place& place : places_)
+        place.written = started_;
+    tell({.state = State::start, .phase = phase_, .subject = subject_});
 }
 
-void Progress::update(double fraction, const std::string& rate) {
-    if (mode_ == Mode::quiet) return;
-    Clock::time_point now = Clock::now();
-    if (mode_ == Mode::terminal ? now - printed_ < terminal_interval
-                                : now - printed_ < line_interval)
-        return;
-    double elapsed = seconds(now - started_);
-    std::string left =
-        fraction > 0.0 ? ", " + duration_text(elapsed / fraction - elapsed) + " left" : "";
-    print(fmt::format("{}: {:.0f} %{}{}{}", stage_, 100.0 * fraction, rate.empty() ? "" : ", ",
-                      rate, left),
-          false);
+void Progress::update(double fraction, std::optional<double> rate) {
+    tell({.state = State::update,
+          .phase = phase_,
+          .subject = subject_,
+          .fraction = fraction,
+          .seconds = seconds(),
+          .rate = rate});
 }
 
 void Progress::finish(const std::string& remark) {
-    if (mode_ == Mode::quiet) return;
-    print(fmt::format("{}: {:.2f} s{}{}", stage_, seconds(Clock::now() - started_),
-                      remark.empty() ? "" : ", ", remark),
-          true);
+    tell({.state = State::finish,
+          .phase = phase_,
+          .subject = subject_,
+          .message = remark,
+          .fraction = 1,
+          .seconds = seconds()});
 }
 
-void Progress::note(const std::string& text) {
-    if (mode_ != Mode::quiet) print(text, true);
-}
+void Progress::note(const std::string& text) { tell({.state = State::note, .message = text}); }
 
 } // namespace parhelion

@@ -1,39 +1,56 @@
 // Telling the user where a long piece of work is.
 #pragma once
 
+#include "host/progress_writers.h"
+
+#include <array>
 #include <chrono>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace parhelion {
 
-/// Stages and their percentages on standard error: one line rewritten on a terminal, plain lines
-/// elsewhere, nothing if quiet.
+/// What --progress accepts.
+inline constexpr std::array<std::string_view, 4> progress_names{"auto", "json", "lines",
+                                                                "terminal"};
+
+/// Phases and how far they are, on standard error as the mode says, and in the log of messages
+/// where there is one.
 class Progress {
 public:
-    enum class Mode { terminal, lines, quiet };
+    enum class Mode { terminal, lines, json, quiet };
 
-    explicit Progress(Mode mode) : mode_(mode) {}
+    explicit Progress(Mode mode);
     /// Terminal or lines, whichever standard error is; or quiet.
-    static Progress standard(bool quiet);
+    static Progress standard(bool quiet) { return Progress(mode_of("auto", quiet)); }
+    /// What `name` (of progress_names) and --quiet come to. Throws InputError for another name, and
+    /// where they contradict each other.
+    static Mode mode_of(const std::string& name, bool quiet);
 
-    /// A new stage begins, e.g. "building the BVH".
-    void start(const std::string& stage);
-    /// `fraction` of the stage is done, in [0, 1]; `rate` is a remark such as "2.1 Mpaths/s". Cheap
-    /// enough to call often.
-    void update(double fraction, const std::string& rate);
-    /// The stage is over, with a closing remark (may be empty).
+    /// A new phase begins, e.g. "loading", of `subject`.
+    void start(const std::string& phase, const std::string& subject = "");
+    /// `fraction` of the phase is done, in [0, 1], at so many paths a second. Cheap enough to call
+    /// often.
+    void update(double fraction, std::optional<double> rate = {});
+    /// The phase is over, with a closing remark (may be empty).
     void finish(const std::string& remark);
-    /// A line that is no stage: a note. Warnings are told when quiet, too (streams.h: say).
+    /// A line that is no phase: a note. Warnings are told when quiet, too (streams.h: say).
     void note(const std::string& text);
 
 private:
     using Clock = std::chrono::steady_clock;
-    void print(const std::string& text, bool last);
+    struct Place {
+        std::unique_ptr<ProgressWriter> writer;
+        Clock::time_point written{};
+    };
+    double seconds() const;
+    void tell(const ProgressEvent& event);
 
-    Mode mode_;
-    std::string stage_;
-    Clock::time_point started_{}, printed_{};
-    std::size_t width_ = 0; ///< of the line that stands on the terminal
+    std::vector<Place> places_;
+    std::string phase_, subject_;
+    Clock::time_point started_{};
 };
 
 } // namespace parhelion

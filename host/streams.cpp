@@ -2,11 +2,14 @@
 #include "host/streams.h"
 
 #include "host/error.h"
+#include "host/json_text.h"
+#include "host/message_log.h"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -14,6 +17,8 @@
 
 namespace parhelion {
 namespace {
+
+std::atomic<MessageForm> form_of_messages = MessageForm::text;
 
 /// Writes all of it; 0, or the error's number.
 int write_all(int stream, std::string_view text) noexcept {
@@ -67,11 +72,29 @@ void check_printed() {
     if (copy >= 0 && ::close(copy) != 0 && errno != EINTR) fail(errno);
 }
 
+void tell_messages_as(MessageForm form) noexcept { form_of_messages = form; }
+MessageForm message_form() noexcept { return form_of_messages; }
+
 void say(std::string_view text) noexcept {
+    const bool json = message_form() == MessageForm::json;
     try {
-        show(safe_text(text) + '\n');
+        const std::string safe = safe_text(text);
+        log_message(safe);
+        show(json ? json_line(nlohmann::ordered_json{{"state", "note"}, {"message", text}})
+                  : safe + '\n');
     } catch (...) { // no memory for a copy
-        show("parhelion: no memory left for a message\n");
+        show(json ? "{\"state\":\"note\",\"message\":\"no memory left for a message\"}\n"
+                  : "parhelion: no memory left for a message\n");
+    }
+}
+
+void pass_on(std::string_view text) noexcept {
+    if (text.empty()) return;
+    if (message_form() == MessageForm::json) {
+        say(text);
+    } else {
+        log_message(text);
+        show(text);
     }
 }
 

@@ -38,9 +38,19 @@ void print(std::string_view text);
 /// Throws OutputError where what was printed is lost after all, as on a disk of another machine.
 void check_printed();
 
-/// A message, one line or several, to standard error; fit for a terminal. One that cannot be
-/// written is lost: nothing else depends on it.
+/// In which form standard error gets messages: lines, or an object of JSON each. The process has
+/// one, as it has one standard error.
+enum class MessageForm { text, json };
+void tell_messages_as(MessageForm form) noexcept;
+MessageForm message_form() noexcept;
+
+/// A message, one line or several, to standard error in its form, and to the log of messages
+/// (message_log.h); fit for a terminal. One that cannot be written is lost: nothing else depends on
+/// it.
 void say(std::string_view text) noexcept;
+
+/// What another has written to standard error and was held back: as it is, or as a message.
+void pass_on(std::string_view text) noexcept;
 
 /// Text of this program's own for the terminal, as it is, to standard error.
 void show(std::string_view text) noexcept;

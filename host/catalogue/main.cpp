@@ -2,6 +2,7 @@
 // for the catalogue to be built.
 #include "host/catalogue/run_catalogue.h"
 #include "host/cl/driver_watch.h"
+#include "host/commands/exit_codes.h"
 #include "host/commands/run_program.h"
 #include "host/commands/version.h"
 #include "host/streams.h"

@@ -37,7 +37,7 @@ bool StressRun::usual_kernels() const {
 
 void StressRun::done(double fraction) {
     std::lock_guard lock(kept_->talking);
-    kept_->progress.update(fraction, "");
+    kept_->progress.update(fraction);
 }
 
 const Program& StressRun::program(const std::string& file) {

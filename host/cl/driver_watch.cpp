@@ -4,8 +4,11 @@
 #include "host/cl/driver_watch.h"
 
 #include "host/cl/device.h"
+#include "host/cl/end_line.h"
 #include "host/cl/open_file.h"
 #include "host/cl/opencl.h"
+#include "host/message_log.h"
+#include "host/streams.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -36,24 +39,15 @@ constexpr int patience_seconds = 30;
 /// A call of the driver that is going on. While it does, standard error is a file in memory.
 struct Call {
     std::string message; ///< made before: a handler cannot make one
-    int standard_error = -1, printed = -1;
+    LastPlaces places;
+    int printed = -1;
 };
 
 std::atomic<bool> reporting = false;
 std::atomic<const Call*> current = nullptr;
 
-void put(int file, const char* text, std::size_t size) {
-    while (size > 0) {
-        ssize_t written = write(file, text, size);
-        if (written <= 0) return;
-        text += written;
-        size -= static_cast<std::size_t>(written);
-    }
-}
-void put(int file, const char* text) { put(file, text, std::strlen(text)); }
-
 /// The last lines of what the driver printed, as one. Safe in a signal handler.
-void put_printed(const Call& call) {
+void add_printed(const Call& call, EndLine& line) {
     std::array<char, 300> text{};
     const off_t size = lseek(call.printed, 0, SEEK_END);
     const ssize_t got = pread(call.printed, text.data(), text.size(),
@@ -62,18 +56,17 @@ void put_printed(const Call& call) {
     while (end != text.begin() && end[-1] == '\n')
         --end;
     if (end == text.begin()) return;
-    std::replace_if(
-        text.begin(), end, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-    put(call.standard_error, ": ");
-    put(call.standard_error, text.data(), static_cast<std::size_t>(end - text.begin()));
+    line.add(": ");
+    line.add({text.data(), static_cast<std::size_t>(end - text.begin())});
 }
 
 /// Safe in a signal handler. The work folder is left to the next run.
 [[noreturn]] void end_process(const Call& call, const char* how) {
-    put(call.standard_error, call.message.c_str());
-    put(call.standard_error, how);
-    put_printed(call);
-    put(call.standard_error, "\n");
+    EndLine line;
+    line.add(call.message);
+    line.add(how);
+    add_printed(call, line);
+    line.tell(call.places);
     _exit(static_cast<int>(ExitCode::device_failure));
 }
 
@@ -163,11 +156,15 @@ public:
     ~HeldOutput() {
         if (!file_ || !before_) return;
         dup2(before_.number(), STDERR_FILENO);
-        std::array<char, 4096> text{};
-        off_t at = 0;
-        for (ssize_t got = 0; (got = pread(file_.number(), text.data(), text.size(), at)) > 0;
-             at += got)
-            put(STDERR_FILENO, text.data(), static_cast<std::size_t>(got));
+        try {
+            std::string text(
+                static_cast<std::size_t>(std::max<off_t>(0, lseek(file_.number(), 0, SEEK_END))),
+                '\0');
+            const ssize_t got = pread(file_.number(), text.data(), text.size(), 0);
+            text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+            pass_on(text);
+        } catch (const std::bad_alloc&) { // what the driver has printed is lost
+        }
     }
     int file() const { return file_.number(); }
     int before() const { return before_ ? before_.number() : STDERR_FILENO; }
@@ -188,7 +185,8 @@ void call_and_report(const std::string& doing, const std::function<void()>& call
     HeldOutput held;
     const Call now{
         fmt::format("parhelion: the OpenCL driver failed while {}{}: ", doing, memory_limit_text()),
-        held.before(), held.file()};
+        {held.before(), message_form() == MessageForm::json, message_log_file()},
+        held.file()};
     Watchman watchman(now);
     Going going(now);
     call();

@@ -113,6 +113,16 @@ fs::path ProgramCache::open_folder() const {
                : spare_;
 }
 
+ProgramCache::Use ProgramCache::use() const {
+    Use use{.most_bytes = most_bytes_};
+    if (folder_.empty()) return use;
+    for (const File& file : files_of(folder_)) {
+        use.programs++;
+        use.bytes += file.bytes;
+    }
+    return use;
+}
+
 std::string ProgramCache::store_below(const fs::path& folder, const std::string& key,
                                       const std::vector<unsigned char>& binary) const {
     std::error_code error;

@@ -42,6 +42,12 @@ public:
     /// Where the program of this key is kept.
     std::filesystem::path path(const std::string& key) const;
     const std::filesystem::path& folder() const { return folder_; }
+    /// What is in its folder, and how much may be.
+    struct Use {
+        std::size_t programs = 0;
+        std::uint64_t bytes = 0, most_bytes = 0;
+    };
+    Use use() const;
     /// The folder that a program would be stored in now: its own, or the spare one.
     std::filesystem::path open_folder() const;
 

@@ -3,6 +3,7 @@
 
 #include "host/commands/nearest_name.h"
 #include "host/commands/option_number.h"
+#include "host/commands/option_text.h"
 #include "host/error.h"
 #include "host/scene/text.h"
 
@@ -28,11 +29,6 @@ struct NumberOf<std::optional<T>> {
 };
 template<class T>
 using Number = typename NumberOf<T>::Type;
-
-std::string help_text(const Option& option) {
-    const std::optional<Domain>& domain = option.rules.domain;
-    return domain ? fmt::format("{} ({})", option.help, accepted_text(*domain)) : option.help;
-}
 
 /// The library would read some texts that are no numbers, and says of none what is accepted.
 template<class T>
@@ -103,8 +99,8 @@ void add_subcommand(CLI::App& app, const Subcommand& subcommand, int& exit_code)
 std::vector<std::string> option_names(const Subcommand& subcommand) {
     std::vector<std::string> names;
     for (const Option& option : subcommand.options)
-        for (const std::string_view name : split(option.names, "!,"))
-            if (name.starts_with("-")) names.emplace_back(name);
+        for (std::string& name : dashed_names(option))
+            names.push_back(std::move(name));
     return names;
 }
 

@@ -20,6 +20,9 @@ using OptionTarget = std::variant<bool*, int*, double*, std::string*, std::optio
                                   std::optional<std::uint32_t>*, std::optional<double>*,
                                   std::optional<std::string>*, std::vector<std::string>*>;
 
+/// What stands in the text of an option or a positional.
+enum class ValueKind { text, file, folder };
+
 struct OptionRules {
     bool required = false;
     std::vector<std::string> needs{}; ///< options that must be given with it
@@ -28,6 +31,8 @@ struct OptionRules {
     bool of_samples = false;          ///< has a say in what a sample of a pixel is
     /// Where its number may lie, or each of the numbers in its text; absent: a text without.
     std::optional<Domain> domain{};
+    ValueKind kind = ValueKind::text; ///< what a shell completes it by, if not by these:
+    std::vector<std::string> words{}; ///< all that it accepts, or what is usual
 };
 
 /// One row of a subcommand's table.

@@ -102,9 +102,11 @@ std::vector<Option> limit_options(CompareOptions& c) {
 
 std::vector<Option> z_test_options(CompareOptions& c) {
     return {
-        {"--variance", &c.variance,
+        {"--variance",
+         &c.variance,
          "EXR with the variance of one sample of each pixel (with --spp), or `own`, the layers "
-         "variance and samples of A, and of B if it has them: z-tests of the pixels and the mean"},
+         "variance and samples of A, and of B if it has them: z-tests of the pixels and the mean",
+         {.kind = ValueKind::file}},
         {"--spp",
          &c.samples,
          "Samples per pixel of A",
@@ -132,8 +134,8 @@ std::vector<Option> z_test_options(CompareOptions& c) {
 
 std::vector<Option> compare_options(CompareOptions& c) {
     std::vector<Option> options{
-        {"A", &c.image, "Image (.exr)", {.required = true}},
-        {"B", &c.reference, "Reference (.exr)", {.required = true}},
+        {"A", &c.image, "Image (.exr)", {.required = true, .kind = ValueKind::file}},
+        {"B", &c.reference, "Reference (.exr)", {.required = true, .kind = ValueKind::file}},
         {"--json", &c.json, "Report as one JSON object"},
         {"--layer", &c.figures.layer, "Compare the channels NAME.* alone"},
         {"--common", &c.common, "Channels that only one of the images has are no difference"},

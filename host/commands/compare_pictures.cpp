@@ -58,7 +58,7 @@ std::vector<Option> picture_options(CompareOptions& options) {
     std::vector<Option> made;
     made.reserve(picture_kinds.size() + 1);
     for (const PictureKind& kind : picture_kinds)
-        made.push_back({kind.option, &(options.*kind.file), kind.help});
+        made.push_back({kind.option, &(options.*kind.file), kind.help, {.kind = ValueKind::file}});
     made.push_back({"--force", &options.force, "Overwrite files that exist"});
     return made;
 }

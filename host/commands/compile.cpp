@@ -7,6 +7,7 @@
 #include "host/flatten/device_scene.h"
 #include "host/flatten/scene_features.h"
 #include "host/scene/load.h"
+#include "host/streams.h"
 #include "host/waves/stage_programs.h"
 
 #include <fmt/format.h>
@@ -48,9 +49,11 @@ std::vector<ProgramGroup> wanted_programs(const std::string& name) {
 
 int run_compile(const CompileCommand& c) {
     check_split(c.image.options);
-    Progress progress = Progress::standard(c.image.quiet);
+    const Progress::Mode mode = Progress::mode_of(c.image.progress, c.image.quiet);
+    tell_messages_as(mode == Progress::Mode::json ? MessageForm::json : MessageForm::text);
+    Progress progress(mode);
     std::vector<ProgramGroup> programs = wanted_programs(c.program);
-    progress.start("loading " + c.image.scene_file);
+    progress.start("loading", c.image.scene_file);
     StageOptions options{.portable = c.image.options.portable,
                          .features = wanted_features(c),
                          .work_group_size = c.image.options.split.work_group_size};
@@ -125,14 +128,16 @@ Subcommand compile_subcommand() {
             "  parhelion compile --features \"$(parhelion info scene.xml --json | "
             "jq -r '.kernel_features | join(\",\")')\"" +
             std::string(cache_help),
-        .options = {{"scene", &image.scene_file, "Scene file (Mitsuba 3 XML)"},
-                    {"--features",
-                     &c->features,
-                     "Features of the kernels, instead of a scene's (see `parhelion info`)",
-                     {.delimiter = ','}},
-                    {"--program", &c->program,
-                     fmt::format("Only this one of the programs {}",
-                                 fmt::join(program_group_names, ", "))}},
+        .options =
+            {{"scene", &image.scene_file, "Scene file (Mitsuba 3 XML)", {.kind = ValueKind::file}},
+             {"--features",
+              &c->features,
+              "Features of the kernels, instead of a scene's (see `parhelion info`)",
+              {.delimiter = ',', .words = FeatureSet::all().names()}},
+             {"--program",
+              &c->program,
+              fmt::format("Only this one of the programs {}", fmt::join(program_group_names, ", ")),
+              {.words = {program_group_names.begin(), program_group_names.end()}}}},
         .run = [c] { return run_compile(*c); },
     };
     for (const Option& option : kernel_options(image))

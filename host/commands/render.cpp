@@ -6,6 +6,7 @@
 #include "host/commands/cache_help.h"
 #include "host/commands/compile.h"
 #include "host/commands/misfit_warning.h"
+#include "host/commands/render_messages.h"
 #include "host/error.h"
 #include "host/image/distinct_files.h"
 #include "host/image/output.h"
@@ -76,7 +77,8 @@ RenderResult render_where_asked(const RenderCommand& command, const Scene& scene
 } // namespace
 
 int run_render(const RenderCommand& command) {
-    if (command.trace) return run_trace(command);
+    const RenderMessages messages(command);
+    if (command.trace) return run_trace(command, messages);
     check_output(command.output, command.force);
     if (!command.stats_file.empty()) check_output_file(command.stats_file, command.force);
     check_distinct(outputs_of(command), {{"the scene", command.scene_file}});
@@ -85,11 +87,11 @@ int run_render(const RenderCommand& command) {
     std::optional<tbb::global_control> host_threads;
     if (command.threads > 0)
         host_threads.emplace(tbb::global_control::max_allowed_parallelism, command.threads);
-    Progress progress = Progress::standard(command.quiet);
+    Progress progress(Progress::mode_of(command.progress, command.quiet));
 
-    progress.start("loading " + command.scene_file);
+    progress.start("loading", command.scene_file);
     auto start = Clock::now();
-    Scene scene = load_scene(command.scene_file, load_options(command));
+    Scene scene = load_scene(command.scene_file, messages.guarded(load_options(command)));
     apply_overrides(command, scene);
     check_distinct(outputs_of(command), files_of(scene));
     note_lost_layers(command, scene);

@@ -15,7 +15,8 @@ namespace parhelion {
 
 /// Everything the command line can say; what is absent is the scene's.
 struct RenderCommand {
-    std::string scene_file, output = "out.exr", stats_file, json_file, device;
+    std::string scene_file, output = "out.exr", stats_file, json_file, log_file, device;
+    std::string progress = "auto";
     std::vector<std::string> definitions; ///< name=value
     std::vector<std::string> aovs;
     std::optional<std::string> integrator, size, crop, sampler, filter_method, precision,
@@ -53,9 +54,10 @@ bool in_double(const RenderCommand& command);
 /// X,Y of a pixel of the film. Throws InputError for one outside.
 std::array<int, 2> parse_pixel(const std::string& text, const Film& film);
 
+class RenderMessages;
 /// Tells one sample of the scene vertex by vertex, on standard output or into a JSON file; nothing
 /// is rendered. Throws InputError.
-int run_trace(const RenderCommand& command);
+int run_trace(const RenderCommand& command, const RenderMessages& messages);
 
 /// Rough lobes of single scattering alone, as Mitsuba and others have them.
 void leave_out_energy_compensation(Scene& scene);

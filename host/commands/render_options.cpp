@@ -3,14 +3,31 @@
 #include "host/commands/render_domains.h"
 #include "host/error.h"
 #include "host/image/output.h"
+#include "host/progress.h"
+#include "kernels/shared/features.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
 
 namespace parhelion {
 namespace {
 
 void append(std::vector<Option>& options, const std::vector<Option>& more) {
     options.insert(options.end(), more.begin(), more.end());
+}
+
+std::vector<std::string> words_of(const auto& names) { return {names.begin(), names.end()}; }
+
+constexpr std::array precision_names{"single", "double"};
+
+/// "normals" is what everyone calls the shading normals.
+std::vector<std::string> aov_words() {
+#define AOV_WORD(name, ...) #name,
+    return {"normals", AOVS(AOV_WORD) FILM_AOVS(AOV_WORD)};
+#undef AOV_WORD
 }
 
 std::vector<Option> of_samples(std::vector<Option> options) {
@@ -29,26 +46,39 @@ std::vector<Option> sampling_options(RenderCommand& c) {
 
 std::vector<Option> image_options(RenderCommand& c) {
     return {
-        {"scene", &c.scene_file, "Scene file (Mitsuba 3 XML)", {.required = true}},
-        {"-o,--output", &c.output, "Image to write, .exr or .png"},
+        {"scene",
+         &c.scene_file,
+         "Scene file (Mitsuba 3 XML)",
+         {.required = true, .kind = ValueKind::file}},
+        {"-o,--output", &c.output, "Image to write, .exr or .png", {.kind = ValueKind::file}},
         {"--crop", &c.crop, "Part of the film, X,Y,WIDTH,HEIGHT", {.domain = crop_domain}},
         {"--exposure", &c.exposure, "Stops of exposure for .png", {.domain = exposure_domain}},
-        {"--stats", &c.stats_file, "Write times, counts and memory as JSON"},
+        {"--stats",
+         &c.stats_file,
+         "Write times, counts and memory as JSON",
+         {.kind = ValueKind::file}},
+        {"--log",
+         &c.log_file,
+         "Append to this file what standard error is told (and with --quiet what it would be), a "
+         "line each with its time",
+         {.kind = ValueKind::file}},
         {"--force", &c.force, "Overwrite files that exist"},
         {"--strict", &c.strict,
          "Exit code 1 if a sample was not finite, or a value of the image is not or does not fit "
          "the "
          "file's format; the image is written all the same"},
-        {"--precision", &c.precision,
+        {"--precision",
+         &c.precision,
          "single, on the device (the default); double, the same kernels on the host: slow, to see "
-         "what rounding does"},
+         "what rounding does",
+         {.words = words_of(precision_names)}},
         {"--threads", &c.threads, "CPU threads, 0 for all", {.domain = threads_domain}},
     };
 }
 
 std::vector<Option> light_options(RenderCommand& c) {
     return of_samples({
-        {"--integrator", &c.integrator, integrator_help},
+        {"--integrator", &c.integrator, integrator_help, {.words = words_of(integrator_names)}},
         {"--sensor", &c.sensor, sensor_help, {.domain = sensor_domain}},
         {"--max-depth",
          &c.max_depth,
@@ -59,27 +89,33 @@ std::vector<Option> light_options(RenderCommand& c) {
          "Russian roulette from this many vertices on",
          {.domain = rr_depth_domain}},
         {"!--no-next-event", &c.next_event, "Do not sample emitters"},
-        {"--shading-normals", &c.shading_normals,
+        {"--shading-normals",
+         &c.shading_normals,
          "consistent (smooth meshes get no light from below their geometry, the default), soft "
          "(and "
          "diffuse light fades towards their horizon) or raw (interpolated normals as they are, as "
          "in "
-         "Mitsuba 3)"},
+         "Mitsuba 3)",
+         {.words = words_of(shading_normals_names)}},
         {"!--no-energy-compensation", &c.energy_compensation, energy_compensation_help},
-        {"--sampler", &c.sampler,
-         "faure (a pattern over the samples of a pixel, the default) or independent"},
+        {"--sampler",
+         &c.sampler,
+         "faure (a pattern over the samples of a pixel, the default) or independent",
+         {.words = words_of(sample_pattern_names)}},
         {"--replicates",
          &c.replicates,
          "Patterns, each scrambled by itself, that the samples of a pixel take turns in: their "
          "means differ by the error that each has (1)",
          {.domain = replicates_domain}},
-        {"--filter-by", &c.filter_method,
+        {"--filter-by",
+         &c.filter_method,
          "splatting (a sample counts for all pixels that the filter reaches, the default) or "
-         "sampling (for one pixel alone: pixels are independent)"},
+         "sampling (for one pixel alone: pixels are independent)",
+         {.words = words_of(filter_method_names)}},
         {"--aov",
          &c.aovs,
          "Layers beside the image, e.g. albedo,normals,depth",
-         {.delimiter = ','}},
+         {.delimiter = ',', .words = aov_words()}},
         {"-D,--define", &c.definitions, "name=value for the scene's $name (repeat for more)"},
         {"--allow-outside", &c.allow_outside, "Let the scene name files outside its own folder"},
         {"--lenient", &c.lenient, lenient_help},
@@ -100,7 +136,10 @@ std::vector<Option> trace_options(RenderCommand& c) {
          &c.sample,
          "Its number, from 0",
          {.needs = {"--trace"}, .domain = sample_domain}},
-        {"--json", &c.json_file, "Tell it as JSON, into this file", {.needs = {"--trace"}}},
+        {"--json",
+         &c.json_file,
+         "Tell it as JSON, into this file",
+         {.needs = {"--trace"}, .kind = ValueKind::file}},
     };
     for (Option& option : options)
         option.rules.group = "One sample instead of an image";
@@ -152,7 +191,12 @@ std::vector<Option> kernel_options(RenderCommand& c) {
     append(
         options,
         {{"--device", &c.device, "Device by index or part of its name (see `parhelion devices`)"},
-         {"-q,--quiet", &c.quiet, "No progress and notes; warnings and errors are told"}});
+         {"-q,--quiet", &c.quiet, "No progress and notes; warnings and errors are told"},
+         {"--progress",
+          &c.progress,
+          "How progress and messages are told: auto (terminal or lines), json (one object a line, "
+          "for scripts), lines or terminal",
+          {.words = words_of(progress_names)}}});
     append(options, program_options(c));
     return options;
 }
@@ -174,9 +218,11 @@ std::vector<Option> render_options(RenderCommand& c) {
 }
 
 bool in_double(const RenderCommand& command) {
-    std::string precision = command.precision.value_or("single");
-    if (precision != "single" && precision != "double")
-        throw InputError(fmt::format("--precision '{}': there are single, double", precision));
+    std::string precision = command.precision.value_or(precision_names[0]);
+    if (std::find(precision_names.begin(), precision_names.end(), precision) ==
+        precision_names.end())
+        throw InputError(fmt::format("--precision '{}': there are {}", precision,
+                                     fmt::join(precision_names, ", ")));
     if (precision == "double" && !command.device.empty())
         throw InputError("--device: double precision runs on the host");
     return precision == "double";
@@ -188,6 +234,7 @@ void check_command(const RenderCommand& command) {
     if (!command.aovs.empty() && image_format(command.output) == ImageFormat::png)
         throw InputError("--aov: a .png preview holds no layers; write an .exr");
     check_split(command.options);
+    Progress::mode_of(command.progress, command.quiet);
     in_double(command);
 }
 

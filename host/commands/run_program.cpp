@@ -70,16 +70,6 @@ int run(const CommandLine& command_line, const StandardStreams& streams, int arg
 
 } // namespace
 
-std::string exit_codes_text() {
-    return "Exit codes: 0 done, 1 images differ (compare), a check does not hold (stress), "
-           "a sample was not finite (render --strict) or something is approximated (info --check), "
-           "2 unusable input, 3 device failure or "
-           "out of memory, 4 internal failure, 5 a result could not be written (disk full, "
-           "standard output "
-           "closed, a file of its name made meanwhile).\n"
-           "Each subcommand has its own --help with examples.";
-}
-
 int run_program(const CommandLine& command_line, int argc, char** argv) {
     const StandardStreams streams;
     report_ends_by_driver();

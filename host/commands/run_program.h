@@ -16,7 +16,4 @@ struct RunByOther {
 /// Runs the command line of main(). Returns the exit code.
 int run_program(const CommandLine& command_line, int argc, char** argv);
 
-/// The footer of --help: what the exit codes of every program mean.
-std::string exit_codes_text();
-
 } // namespace parhelion

@@ -1,5 +1,6 @@
 // `parhelion render --trace`: one sample of a scene, vertex by vertex.
 #include "host/commands/render.h"
+#include "host/commands/render_messages.h"
 #include "host/commands/trace_report.h"
 #include "host/error.h"
 #include "host/image/distinct_files.h"
@@ -30,12 +31,12 @@ int checked_sample(int sample, int samples_per_pixel) {
 
 } // namespace
 
-int run_trace(const RenderCommand& command) {
+int run_trace(const RenderCommand& command, const RenderMessages& messages) {
     check_trace(command);
-    Scene scene = load_scene(command.scene_file, load_options(command));
+    Scene scene = load_scene(command.scene_file, messages.guarded(load_options(command)));
     check_distinct({{"--json", command.json_file}}, files_of(scene));
     apply_overrides(command, scene);
-    Progress progress = Progress::standard(command.quiet);
+    Progress progress(Progress::mode_of(command.progress, command.quiet));
     for (const std::string& note : scene.notes)
         progress.note("note: " + note);
     auto [x, y] = parse_pixel(*command.pixel, scene.film);

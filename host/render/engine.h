@@ -41,6 +41,7 @@ struct OpenedRender {
     FilmContent content;
     int blocks = 0, samples_per_pixel = 0;
     RenderReport report;
+    std::string place{}; ///< for progress, where it is not a device
 };
 
 } // namespace parhelion

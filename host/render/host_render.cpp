@@ -68,13 +68,13 @@ OpenedRender open_on_host(const Scene& scene, const RenderOptions& options, Prec
     const int samples = scene.sampler.samples_per_pixel;
     const WorkSizes sizes = work_sizes(film_layout(scene, aovs), samples, 1, split);
     const FilmContent content = film_content(scene, aovs, flat.frame);
-    progress.note(fmt::format("rendering on the {}: slow", report.device));
+    const std::string place = fmt::format("on the {}: slow", report.device);
     std::unique_ptr<Engine> engine;
     if (twice)
         engine = std::make_unique<HostEngine<double>>(std::move(flat), scene, options, aovs, sizes);
     else
         engine = std::make_unique<HostEngine<float>>(std::move(flat), scene, options, aovs, sizes);
-    return {std::move(engine), content, sizes.film.blocks(), samples, std::move(report)};
+    return {std::move(engine), content, sizes.film.blocks(), samples, std::move(report), place};
 }
 
 RenderResult render_on_host(const Scene& scene, const RenderOptions& options, Precision precision,

@@ -56,7 +56,7 @@ void Session::take_up(const FilmSums& film, const FilmState& state) {
 void Session::step(const std::function<bool()>& stop) {
     if (finished()) return;
     if (!started_) {
-        progress_.start("rendering");
+        progress_.start("rendering", opened_.place);
         started_ = Clock::now();
     }
     const bool in_rest = groups_->left() == 0;
@@ -67,8 +67,8 @@ void Session::step(const std::function<bool()>& stop) {
     opened_.engine->trace(schedule, [&] {
         if (stop()) schedule.stop();
         const auto done = static_cast<double>(todo_ - left());
-        const double rate = done * BLOCK_PIXELS / seconds_since(*started_) / 1e6;
-        progress_.update(done / static_cast<double>(todo_), fmt::format("{:.3f} Mpaths/s", rate));
+        progress_.update(done / static_cast<double>(todo_),
+                         done * BLOCK_PIXELS / seconds_since(*started_));
     });
     seconds_ += seconds_since(start);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <utility>
 
 namespace parhelion {
 
@@ -47,8 +48,10 @@ std::string what_is_there(const std::vector<fs::path>& candidates) {
 
 } // namespace
 
-FileFinder::FileFinder(const fs::path& scene_file, bool allow_outside)
-    : scene_folder_(scene_file.parent_path()), allow_outside_(allow_outside) {
+FileFinder::FileFinder(const fs::path& scene_file, bool allow_outside,
+                       std::function<void(const std::string&)> check)
+    : scene_folder_(scene_file.parent_path()), allow_outside_(allow_outside),
+      check_(std::move(check)) {
     scene_root_ = fs::canonical(scene_folder_.empty() ? "." : scene_folder_);
 }
 
@@ -85,6 +88,7 @@ fs::path FileFinder::find(const std::string& name, const SourceLocation& place,
 
 fs::path FileFinder::file(const std::string& name, const SourceLocation& place) const {
     fs::path path = find(name, place, false);
+    if (check_) check_(path.string());
     found_.push_back(path.string());
     return path;
 }

@@ -4,6 +4,7 @@
 #include "host/error.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,9 @@ namespace parhelion {
 class FileFinder {
 public:
     /// `scene_file` exists. With `allow_outside` files beyond the scene's folder may be used.
-    FileFinder(const std::filesystem::path& scene_file, bool allow_outside);
+    /// `check`, where there is one, throws InputError for those that may not.
+    FileFinder(const std::filesystem::path& scene_file, bool allow_outside,
+               std::function<void(const std::string&)> check = {});
 
     /// The existing regular file called `name` by the scene at `place`.
     /// Throws InputError when there is none, or when it leaves the scene's folder without leave.
@@ -34,6 +37,7 @@ private:
     std::filesystem::path scene_root_; ///< scene_folder_ with links resolved
     std::vector<std::filesystem::path> folders_;
     bool allow_outside_;
+    std::function<void(const std::string&)> check_;
     mutable std::vector<std::string> found_;
 };
 

@@ -3,6 +3,8 @@
 
 #include "host/image/component_format.h"
 
+#include <array>
+
 namespace parhelion {
 
 enum class PixelFormat { luminance, luminance_alpha, rgb, rgba, xyz, xyza };
@@ -26,6 +28,8 @@ struct ReconstructionFilter {
 #define FILTER_METHODS(X) X(splatting) X(sampling)
 #define METHOD_ENUM(name) name,
 enum class FilterMethod { FILTER_METHODS(METHOD_ENUM) };
+#define METHOD_NAME(name) #name,
+inline constexpr std::array filter_method_names{FILTER_METHODS(METHOD_NAME)};
 
 struct Film {
     int width = 768, height = 576;

@@ -12,6 +12,8 @@ namespace parhelion {
 #define INTEGRATORS(X) X(path) X(direct) X(normals) X(depth) X(aov)
 #define INTEGRATOR_ENUM(name) name,
 enum class IntegratorKind { INTEGRATORS(INTEGRATOR_ENUM) };
+#define INTEGRATOR_NAME(name) #name,
+inline constexpr std::array integrator_names{INTEGRATORS(INTEGRATOR_NAME)};
 
 /// An AOV asked for by the scene: the name its channels get and the kind, e.g. {"nn", "sh_normal"}.
 struct AovRequest {

@@ -4,6 +4,7 @@
 #include "host/scene/construct.h"
 #include "host/scene/scene.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,6 +21,9 @@ struct LoadOptions {
     bool own_integrator = false;
     /// What is not known is left out, or read as what is nearest, each with a note.
     bool lenient = false;
+    /// Is told of each file that the scene names, before it is read; throws InputError for one that
+    /// may not be.
+    std::function<void(const std::string&)> check_file{};
 };
 
 /// Loads a scene (the format is chosen by the file's extension).

@@ -6,6 +6,7 @@
 # disks    full, read-only and noexec file systems (needs to mount some)
 # drivers  no driver, one that cannot be loaded, devices that PoCL is told to offer
 # memory   `ulimit -v` from nothing to enough
+# doctor   what it says of all of these, and that it says nothing else of the environment
 # children processes that compile beside end with the one that started them
 # shellcheck disable=SC2317 # functions that are called by the name they are given
 set -uo pipefail
@@ -256,12 +257,51 @@ children() {
     fail "a killed render" "the process that compiles beside it lives on"
 }
 
+# examined NAME CODE TEXT COMMAND...: `COMMAND doctor` ends with CODE and says TEXT; as JSON likewise. Its exit code is 0 where
+# a render works, and else 3.
+examined() {
+    local name=$1 code=$2 text=$3 status rendered
+    shift 3
+    timeout -k 5 120 "$@" "$parhelion" doctor >page 2>messages </dev/null
+    status=$?
+    [[ $status == "$code" ]] || { fail "doctor: $name" "exit code $status, not $code" page; return; }
+    grep -Eq -- "$text" page || { fail "doctor: $name" "nothing like '$text' is said" page; return; }
+    [[ ! -s messages ]] || { fail "doctor: $name" "standard error" messages; return; }
+    timeout -k 5 120 "$@" "$parhelion" doctor --json >page.json 2>&1 </dev/null
+    if ((code == 3)); then grep -q '"prevents": true' page.json; else ! grep -q '"prevents": true' page.json; fi ||
+        { fail "doctor: $name" "another verdict as JSON" page.json; return; }
+    timeout -k 5 120 "$@" "$parhelion" render "$scene" --spp 1 -o "$work/image.exr" --force >messages 2>&1 </dev/null
+    rendered=$?
+    ((code == 0 ? rendered == 0 : rendered != 0)) || { fail "doctor: $name" "a render ends with $rendered" messages; return; }
+    printf 'doctor: %s: passed\n' "$name"
+}
+
+doctor() {
+    scene=$work/scene.xml
+    examined "all is well" 0 '^nothing is wrong|^worth knowing' env
+    examined "no driver" 3 'WRONG: no OpenCL device: no driver is registered' env OCL_ICD_VENDORS=/nonexistent
+    examined "no home" 0 'there is no folder for compiled kernels' env -u HOME -u PARHELION_CACHE_DIR
+    : >file
+    examined "no cache" 0 'the cache folder .*/file/below cannot be written \(Not a directory\)' env PARHELION_CACHE_DIR="$work/file/below"
+    examined "a size that is none" 3 "WRONG: PARHELION_CACHE_SIZE is 'x'" env PARHELION_CACHE_SIZE=x
+    examined "no temporary folder of that name" 0 'TMPDIR, /nonexistent, cannot be used' env TMPDIR=/nonexistent
+    examined "no device of that name" 3 "WRONG: .*POCL_DEVICES is 'foo'" env POCL_DEVICES=foo
+    examined "less memory" 0 'ulimit -v allows 3[0-9]* MB' bash -c 'ulimit -v 4000000 && exec "$@"' bash
+    SECRET_TOKEN=do-not-tell "$parhelion" doctor >page 2>&1
+    ! grep -q do-not-tell page || fail "doctor" "tells other variables" page
+    grep -q "PARHELION_CACHE_DIR=$work/cache" page || fail "doctor" "does not tell PARHELION_CACHE_DIR" page
+    [[ -z $(ls -A "$TMPDIR") ]] || fail "doctor" "left $(ls "$TMPDIR")"
+    command -v taskset >/dev/null && (($(nproc) > 1)) || return 0
+    examined "one processor" 0 'this process may run on 1 of [0-9]+ processors' taskset -c 0
+}
+
 case $group in
     caches) caches ;;
     disks) disks ;;
     drivers) drivers ;;
     memory) memory ;;
     children) children ;;
+    doctor) doctor ;;
     *) echo "no such group: $group" && exit 2 ;;
 esac
 ((failed || !left_out)) || exit 77 # a part of a group is missing: not passed either

@@ -43,7 +43,7 @@ class Reader {
 public:
     Reader(const std::string& file, const LoadOptions& options)
         : document_{.objects = {},
-                    .files = FileFinder(file, options.allow_outside),
+                    .files = FileFinder(file, options.allow_outside, options.check_file),
                     .notes = {},
                     .own_integrator = options.own_integrator,
                     .lenient = options.lenient},

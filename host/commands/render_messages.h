@@ -1,0 +1,24 @@
+// Where a render tells what it has to say: --progress, --quiet, --log.
+#pragma once
+
+#include "host/commands/render.h"
+
+namespace parhelion {
+
+/// From its making on, messages have the form that the command asks for, and go to its log, to the
+/// end of the process: what ends a render is told after it.
+class RenderMessages {
+public:
+    /// Throws InputError for a log that cannot be written, or is an output or the scene.
+    explicit RenderMessages(const RenderCommand& command);
+
+    /// The same, with which a scene that names the log is refused; no line is added to it then.
+    LoadOptions guarded(LoadOptions options) const;
+
+private:
+    void check_distinct_from(const std::string& scene_file) const;
+
+    std::string log_file_;
+};
+
+} // namespace parhelion
