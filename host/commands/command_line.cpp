@@ -52,7 +52,7 @@ CLI::Option* add_value(CLI::App& app, const Option& option, T& target) {
         CLI::Option* added = app.add_option(option.names, target, help_text(option));
         if constexpr (std::is_same_v<T, std::vector<std::string>>) {
             // Without this a list would swallow the arguments behind it.
-            added->allow_extra_args(false);
+            if (!is_positional(option)) added->allow_extra_args(false);
             if (option.rules.delimiter != 0) added->delimiter(option.rules.delimiter);
         } else {
             added->check([](const std::string& text) {

@@ -29,6 +29,7 @@ struct OptionRules {
     char delimiter = 0;               ///< between the values of a list; 0: one value an occurrence
     std::string group{};              ///< heading in the help; empty: the usual one
     bool of_samples = false;          ///< has a say in what a sample of a pixel is
+    bool of_film = false;             ///< has a say in what is on the film besides
     /// Where its number may lie, or each of the numbers in its text; absent: a text without.
     std::optional<Domain> domain{};
     ValueKind kind = ValueKind::text; ///< what a shell completes it by, if not by these:

@@ -4,6 +4,7 @@
 #include "host/commands/command_line.h"
 #include "host/image/distinct_files.h"
 #include "host/render/device_render.h"
+#include "host/render/shard.h"
 #include "host/scene/load.h"
 
 #include <array>
@@ -29,6 +30,9 @@ struct RenderCommand {
     bool trace = false;
     int threads = 0; ///< 0: all
     bool next_event = true, energy_compensation = true;
+    std::optional<std::string> shard, shard_by, time_limit; ///< K/N, what is shared out, duration
+    std::string checkpoint, checkpoint_every = "60s", resume;
+    bool goes_on = false; ///< from the checkpoint's file, if it is there
     bool force = false, quiet = false, strict = false, allow_outside = false, lenient = false;
     RenderOptions options;
 };
@@ -46,6 +50,9 @@ std::vector<UsedFile> files_of(const Scene& scene);
 /// Replaces what the scene file says by what the command line says. Throws InputError naming the
 /// option.
 void apply_overrides(const RenderCommand& command, Scene& scene);
+
+/// What --precision accepts.
+inline constexpr std::array precision_names{"single", "double"};
 
 /// Whether double precision is asked for. Throws InputError for what is no precision, or a device
 /// that has none.
@@ -85,6 +92,9 @@ std::vector<Option> kernel_options(RenderCommand& command);
 
 /// Throws InputError for what cannot be, whatever the scene and the files there are.
 void check_command(const RenderCommand& command);
+
+/// The part of the picture that is asked for. Throws InputError for what is none.
+Shard shard_of(const RenderCommand& command);
 
 /// Throws InputError for a split that cannot be.
 void check_split(const RenderOptions& options);

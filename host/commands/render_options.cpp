@@ -21,8 +21,6 @@ void append(std::vector<Option>& options, const std::vector<Option>& more) {
 
 std::vector<std::string> words_of(const auto& names) { return {names.begin(), names.end()}; }
 
-constexpr std::array precision_names{"single", "double"};
-
 /// "normals" is what everyone calls the shading normals.
 std::vector<std::string> aov_words() {
 #define AOV_WORD(name, ...) #name,
@@ -51,7 +49,10 @@ std::vector<Option> image_options(RenderCommand& c) {
          "Scene file (Mitsuba 3 XML)",
          {.required = true, .kind = ValueKind::file}},
         {"-o,--output", &c.output, "Image to write, .exr or .png", {.kind = ValueKind::file}},
-        {"--crop", &c.crop, "Part of the film, X,Y,WIDTH,HEIGHT", {.domain = crop_domain}},
+        {"--crop",
+         &c.crop,
+         "Part of the film, X,Y,WIDTH,HEIGHT",
+         {.of_film = true, .domain = crop_domain}},
         {"--exposure", &c.exposure, "Stops of exposure for .png", {.domain = exposure_domain}},
         {"--stats",
          &c.stats_file,
@@ -71,7 +72,7 @@ std::vector<Option> image_options(RenderCommand& c) {
          &c.precision,
          "single, on the device (the default); double, the same kernels on the host: slow, to see "
          "what rounding does",
-         {.words = words_of(precision_names)}},
+         {.of_film = true, .words = words_of(precision_names)}},
         {"--threads", &c.threads, "CPU threads, 0 for all", {.domain = threads_domain}},
     };
 }
@@ -120,6 +121,41 @@ std::vector<Option> light_options(RenderCommand& c) {
         {"--allow-outside", &c.allow_outside, "Let the scene name files outside its own folder"},
         {"--lenient", &c.lenient, lenient_help},
     });
+}
+
+std::vector<Option> part_options(RenderCommand& c) {
+    std::vector<Option> options{
+        {"--checkpoint",
+         &c.checkpoint,
+         "Keep in this file, from time to time and at the end, what a later render needs to go on",
+         {.kind = ValueKind::file}},
+        {"--checkpoint-every",
+         &c.checkpoint_every,
+         "How often: 90, 90s, 1.5m, 2h",
+         {.needs = {"--checkpoint"}}},
+        {"--resume",
+         &c.resume,
+         "Go on from the checkpoint in this file, with as many samples or more; the picture has "
+         "the "
+         "bits of a render that was never stopped",
+         {.kind = ValueKind::file}},
+        {"--continue",
+         &c.goes_on,
+         "Go on from the file of --checkpoint, if it is there",
+         {.needs = {"--checkpoint"}}},
+        {"--time-limit", &c.time_limit,
+         "Stop after so long (90, 90s, 1.5m, 2h) with what there is of the picture: exit code 99"},
+        {"--shard", &c.shard,
+         "Render part K of N, K/N, into a .film; `parhelion merge` makes of all parts the picture "
+         "that one render would have made, to the bit"},
+        {"--shard-by",
+         &c.shard_by,
+         "What is shared out: blocks of the picture (the default) or samples, in groups of 16",
+         {.needs = {"--shard"}, .words = words_of(sharding_names)}},
+    };
+    for (Option& option : options)
+        option.rules.group = "In parts, and going on";
+    return options;
 }
 
 std::vector<Option> trace_options(RenderCommand& c) {
@@ -201,41 +237,12 @@ std::vector<Option> kernel_options(RenderCommand& c) {
     return options;
 }
 
-void check_split(const RenderOptions& options) {
-    int most_streams = options.split.pool_paths / BLOCK_PIXELS;
-    if (options.split.streams > most_streams)
-        throw InputError(fmt::format("--streams {}: there may be 1 to {}, each with at least {} of "
-                                     "the pool's paths (0: what suits the device)",
-                                     options.split.streams, most_streams, BLOCK_PIXELS));
-}
-
 std::vector<Option> render_options(RenderCommand& c) {
     std::vector<Option> options = sampling_options(c);
     for (const std::vector<Option>& more :
-         {image_options(c), trace_options(c), kernel_options(c), pool_options(c)})
+         {image_options(c), part_options(c), trace_options(c), kernel_options(c), pool_options(c)})
         append(options, more);
     return options;
-}
-
-bool in_double(const RenderCommand& command) {
-    std::string precision = command.precision.value_or(precision_names[0]);
-    if (std::find(precision_names.begin(), precision_names.end(), precision) ==
-        precision_names.end())
-        throw InputError(fmt::format("--precision '{}': there are {}", precision,
-                                     fmt::join(precision_names, ", ")));
-    if (precision == "double" && !command.device.empty())
-        throw InputError("--device: double precision runs on the host");
-    return precision == "double";
-}
-
-void check_command(const RenderCommand& command) {
-    if (command.exposure && image_format(command.output) != ImageFormat::png)
-        throw InputError("--exposure: is for .png previews; an .exr holds linear values");
-    if (!command.aovs.empty() && image_format(command.output) == ImageFormat::png)
-        throw InputError("--aov: a .png preview holds no layers; write an .exr");
-    check_split(command.options);
-    Progress::mode_of(command.progress, command.quiet);
-    in_double(command);
 }
 
 } // namespace parhelion

@@ -9,6 +9,7 @@
 #include "host/commands/exit_codes.h"
 #include "host/commands/info.h"
 #include "host/commands/manual.h"
+#include "host/commands/merge.h"
 #include "host/commands/parameters.h"
 #include "host/commands/render.h"
 #include "host/commands/run_program.h"
@@ -21,6 +22,7 @@ namespace parhelion {
 std::vector<Subcommand> all_subcommands() {
     const auto run_by_other = [](const StressCommand&) -> int { throw RunByOther{stress_program}; };
     return {render_subcommand(),
+            merge_subcommand(),
             compare_subcommand(),
             info_subcommand(),
             compile_subcommand(),

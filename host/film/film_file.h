@@ -9,6 +9,7 @@
 #include "host/film/film_content.h"
 #include "host/film/film_state.h"
 #include "host/film/film_sums.h"
+#include "host/film/render_key.h"
 #include "host/image/image.h"
 #include "host/image/output.h"
 
@@ -19,15 +20,13 @@
 
 namespace parhelion {
 
-/// What tells one render from another, part by part: a name for the user ("--seed", "the scene")
-/// and the value or the digest of what it stands for.
-using RenderKey = std::vector<std::pair<std::string, std::string>>;
-
 struct FilmHeader {
     RenderKey key;
     FilmContent content;
     int blocks = 0; ///< of the sampled window
     int samples_per_pixel = 0;
+    std::string part_name; ///< "3/8 by blocks"; nothing for the whole
+    SampleSet part;        ///< the samples that it is of when it is finished
     FilmState state;
     /// Of the picture.
     std::vector<std::pair<std::string, MetadataValue>> metadata;

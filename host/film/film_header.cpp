@@ -32,15 +32,21 @@ void require(bool holds, const char* what) {
     if (!holds) throw InputError(what);
 }
 
+/// Every range is one of samples that there are, and none is in two of them.
+SampleSet samples_of(const nlohmann::json& json, const SampleSet& all) {
+    SampleSet samples;
+    for (const nlohmann::json& r : json) {
+        samples.push_back({r.at(0), r.at(1), r.at(2), r.at(3)});
+        require(r.at(0) < r.at(1) && r.at(2) < r.at(3), "a range of samples is empty");
+    }
+    require((samples | samples) == samples && (samples - all).empty(),
+            "its samples are none of its render");
+    return samples;
+}
+
 FilmState state_of(const nlohmann::json& json, const SampleSet& all) {
     FilmState state;
-    for (const nlohmann::json& r : json.at("samples"))
-        state.samples.push_back({r.at(0), r.at(1), r.at(2), r.at(3)});
-    // Every range is one of samples that there are, and none is in two of them.
-    for (const SampleRange& r : state.samples)
-        require(r.first_block < r.end_block && r.first < r.end, "a range of samples is empty");
-    require((state.samples | state.samples) == state.samples && (state.samples - all).empty(),
-            "its samples are none of its render");
+    state.samples = samples_of(json.at("samples"), all);
     state.counts = json.at("counts").get<TraceCounts>();
     for (const nlohmann::json& b : json.at("bad_samples")) {
         state.bad_samples.push_back({b.at(0), b.at(1), b.at(2), b.at(3), b.at(4)});
@@ -71,6 +77,8 @@ nlohmann::json to_json(const FilmHeader& h) {
             {"content", to_json(h.content)},
             {"blocks", h.blocks},
             {"samples_per_pixel", h.samples_per_pixel},
+            {"part_name", h.part_name},
+            {"part", list(h.part)},
             {"state", to_json(h.state)},
             {"metadata", metadata_json(h.metadata)}};
 }
@@ -81,6 +89,8 @@ FilmHeader film_header(const nlohmann::json& json) {
     h.content = film_content(json.at("content"));
     h.blocks = json.at("blocks"), h.samples_per_pixel = json.at("samples_per_pixel");
     require(h.blocks > 0 && h.samples_per_pixel > 0, "it is of no samples");
+    h.part_name = json.at("part_name");
+    h.part = samples_of(json.at("part"), h.all());
     h.state = state_of(json.at("state"), h.all());
     for (const nlohmann::json& entry : json.at("metadata"))
         h.metadata.emplace_back(entry.at(0), metadata_value(entry.at(1)));

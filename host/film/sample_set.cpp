@@ -106,6 +106,19 @@ SampleSet operator-(const SampleSet& a, const SampleSet& b) {
     return combined(a, b, [](bool in_a, bool in_b) { return in_a && !in_b; });
 }
 
+int fewest_samples(const SampleSet& set, int blocks) {
+    const SampleSet whole{{0, blocks, 0, 1}};
+    const Numbers at = ends(set, whole, &SampleRange::first_block, &SampleRange::end_block);
+    int fewest = std::numeric_limits<int>::max();
+    for (std::size_t i = 0; i + 1 < at.size(); i++) {
+        int samples = 0;
+        for (const SampleRange& range : of_block(set, at[i]))
+            samples += range.end - range.first;
+        fewest = std::min(fewest, samples);
+    }
+    return fewest;
+}
+
 SampleSet samples_between(const SampleSet& set, int first, int end) {
     if (first >= end) return {};
     return set & SampleSet{{0, std::numeric_limits<int>::max(), first, end}};

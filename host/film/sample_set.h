@@ -30,6 +30,9 @@ SampleSet operator|(const SampleSet& a, const SampleSet& b);
 SampleSet operator&(const SampleSet& a, const SampleSet& b);
 SampleSet operator-(const SampleSet& a, const SampleSet& b);
 
+/// How many each of the blocks [0, blocks) has at least.
+int fewest_samples(const SampleSet& set, int blocks);
+
 /// Those whose numbers are in [first, end).
 SampleSet samples_between(const SampleSet& set, int first, int end);
 

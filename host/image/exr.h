@@ -25,6 +25,9 @@ Image read_exr(const std::string& file);
 /// The same of a file's bytes at hand, called `name` in messages.
 Image parse_exr(std::string_view bytes, const std::string& name);
 
+/// A text attribute of a file's header; nothing where there is none, or no such file.
+std::string exr_attribute(const std::string& file, const std::string& name);
+
 struct ExrOptions {
     ComponentFormat component = ComponentFormat::float32;
     Existing existing = Existing::replace; ///< what check_output has asked for

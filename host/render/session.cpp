@@ -13,8 +13,10 @@ namespace {
 /// Below that number samples come in whole groups.
 int whole_samples(int samples_per_pixel) { return samples_per_pixel / FILM_SAMPLES * FILM_SAMPLES; }
 
-/// Groups are added up as one: a film that has a part of one cannot get the rest of it.
-void check_groups(const SampleSet& samples, int samples_per_pixel) {
+} // namespace
+
+// Groups are added up as one: a film that has a part of one cannot get the rest of it.
+void check_goes_on(const SampleSet& samples, int samples_per_pixel) {
     for (const SampleRange& range : samples) {
         if (range.end > samples_per_pixel)
             throw InputError(fmt::format("has {} samples a pixel, more than the {} that are asked "
@@ -27,8 +29,6 @@ void check_groups(const SampleSet& samples, int samples_per_pixel) {
                                          FILM_SAMPLES, range.end, samples_per_pixel));
     }
 }
-
-} // namespace
 
 Session::Session(OpenedRender opened, const Shard& shard, Progress& progress)
     : opened_(std::move(opened)), progress_(progress),
@@ -47,7 +47,7 @@ void Session::plan() {
 }
 
 void Session::take_up(const FilmSums& film, const FilmState& state) {
-    check_groups(state.samples, opened_.samples_per_pixel);
+    check_goes_on(state.samples, opened_.samples_per_pixel);
     opened_.engine->fill_film(film);
     taken_up_ = state;
     plan();

@@ -14,13 +14,17 @@
 
 namespace parhelion {
 
+/// Throws InputError where a render of so many samples a pixel cannot go on from a film that has
+/// these.
+void check_goes_on(const SampleSet& samples, int samples_per_pixel);
+
 class Session {
 public:
     /// Of the samples of `shard`. `progress` must outlive it.
     Session(OpenedRender opened, const Shard& shard, Progress& progress);
 
     /// Puts a film of the same content on this one, which must be empty. Samples that are not of
-    /// this session count as well.
+    /// this session count as well. Throws as check_goes_on does.
     void take_up(const FilmSums& film, const FilmState& state);
 
     /// Renders until `stop` says so, which is asked after every wave, or all whole groups of
@@ -33,7 +37,13 @@ public:
     /// can go on from it.
     bool in_whole_groups() const { return !has_rest_; }
 
+    /// Whether all whole groups are on the film.
+    bool groups_finished() const { return groups_->left() == 0; }
+
     const FilmContent& content() const { return opened_.content; }
+    int blocks() const { return opened_.blocks; }
+    /// The samples of the session.
+    const SampleSet& all() const { return all_; }
     /// What is on the film.
     FilmState state();
     std::unique_ptr<FilmSums> film() { return opened_.engine->film(); }

@@ -15,6 +15,7 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
         kernels_.push_back(programs.programs[stage].kernel(stage_names[stage]));
     work_ = wave_buffers(device.context, queue_, buffer_counts(s));
     outside_.fill_zero(queue_);
+    queue_.finish(); // what is under way must not outlive its buffers
     counts_.resize(work_.counts.count());
 }
 

@@ -1,0 +1,133 @@
+// `parhelion merge`: films of parts of a render to the picture of the whole.
+#include "host/commands/merge.h"
+
+#include "host/commands/misfit_warning.h"
+#include "host/commands/render_domains.h"
+#include "host/commands/render_outputs.h"
+#include "host/error.h"
+#include "host/film/film_image.h"
+#include "host/film/film_parts.h"
+#include "host/image/distinct_files.h"
+#include "host/image/write_image.h"
+#include "host/progress.h"
+#include "host/streams.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+namespace parhelion {
+namespace {
+
+bool is_film(const std::string& file) { return std::filesystem::path(file).extension() == ".film"; }
+
+void check_files(const MergeCommand& command) {
+    if (is_film(command.output))
+        check_output_file(command.output, command.force);
+    else
+        check_output(command.output, command.force);
+    if (command.exposure &&
+        (is_film(command.output) || image_format(command.output) != ImageFormat::png))
+        throw InputError("--exposure: is for .png previews; an .exr holds linear values");
+    std::vector<UsedFile> inputs;
+    for (const std::string& part : command.parts)
+        inputs.push_back({"a part,", part});
+    check_distinct({{"--output", command.output}}, inputs);
+}
+
+/// Each part stays open: as many as the system lets a process have.
+void allow_many_files() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+    limit.rlim_cur = limit.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+std::deque<FilmFile> opened(const MergeCommand& command, Progress& progress) {
+    std::deque<FilmFile> parts;
+    for (const std::string& file : command.parts) {
+        parts.emplace_back(file);
+        progress.update(static_cast<double>(parts.size()) /
+                        static_cast<double>(command.parts.size()));
+    }
+    check_parts(parts);
+    return parts;
+}
+
+void write_merged(const MergeCommand& command, const FilmHeader& header, const FilmSums& sums) {
+    if (is_film(command.output)) {
+        write_film(command.output, header, sums, existing_files(command.force));
+        return;
+    }
+    Image image = film_image(sums, header.content);
+    image.metadata = header.metadata;
+    add_unfinished(header, image);
+    const Film& film = header.content.film;
+    RenderReport report;
+    report.misfits = write_image(
+        command.output, image,
+        {command.exposure.value_or(0.0), {film.component_format, existing_files(command.force)}});
+    if (!report.misfits.empty()) say(misfit_warning(command.output, film, report));
+}
+
+} // namespace
+
+int run_merge(const MergeCommand& command) {
+    check_files(command);
+    allow_many_files();
+    Progress progress(Progress::mode_of(command.progress, command.quiet));
+    progress.start("opening", fmt::format("{} parts", command.parts.size()));
+    const std::deque<FilmFile> parts = opened(command, progress);
+    const FilmHeader header = added_header(parts);
+    progress.finish("");
+    const std::string missing = missing_text(parts, header);
+    if (!missing.empty() && !command.partial && !is_film(command.output))
+        throw InputError(fmt::format("{} (--partial makes a picture of what there is)", missing));
+    if (!missing.empty()) progress.note("note: " + missing);
+    std::vector<const FilmSums*> films;
+    for (const FilmFile& part : parts)
+        films.push_back(&part);
+    progress.start("merging");
+    write_merged(command, header, AddedFilms(films));
+    progress.finish("");
+    progress.note("wrote " + command.output);
+    return static_cast<int>(ExitCode::ok);
+}
+
+Subcommand merge_subcommand() {
+    auto c = std::make_shared<MergeCommand>();
+    return {
+        .name = "merge",
+        .summary = "Make one picture of the parts that `render --shard` wrote",
+        .examples = "Examples:\n"
+                    "  parhelion render scene.xml --shard 1/2 -o part1.film\n"
+                    "  parhelion render scene.xml --shard 2/2 -o part2.film\n"
+                    "  parhelion merge part1.film part2.film -o image.exr\n"
+                    "  parhelion merge part*.film -o look.png --partial\n"
+                    "  parhelion merge rack1/*.film -o rack1.film",
+        .options =
+            {
+                {"parts",
+                 &c->parts,
+                 "Films of parts of one render, in any order",
+                 {.required = true, .kind = ValueKind::file}},
+                {"-o,--output",
+                 &c->output,
+                 "Image to write, .exr or .png; or a .film, to be merged again",
+                 {.kind = ValueKind::file}},
+                {"--partial", &c->partial, "A picture of what there is, though parts are missing"},
+                {"--exposure",
+                 &c->exposure,
+                 "Stops of exposure for .png",
+                 {.domain = exposure_domain}},
+                {"--force", &c->force, "Overwrite files that exist"},
+                {"-q,--quiet", &c->quiet, "No progress and notes; warnings and errors are told"},
+            },
+        .run = [c] { return run_merge(*c); },
+    };
+}
+
+} // namespace parhelion

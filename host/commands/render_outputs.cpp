@@ -1,0 +1,101 @@
+// What a render writes at its end, and what may be there before.
+#include "host/commands/render_outputs.h"
+
+#include "host/commands/render_key.h"
+#include "host/error.h"
+#include "host/image/exr.h"
+#include "parhelion_version.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+
+namespace parhelion {
+namespace {
+
+// Attributes of a picture.
+constexpr const char* digest_attribute = "render";
+constexpr const char* unfinished_attribute = "unfinished";
+
+bool exists(const std::string& file) {
+    std::error_code error;
+    return std::filesystem::exists(file, error);
+}
+
+bool goes_on(const RenderCommand& command) { return !command.resume.empty() || command.goes_on; }
+
+void check_film_output(const std::string& file, bool force) {
+    if (std::filesystem::path(file).extension() != ".film")
+        throw InputError(file + ": a part of a render (--shard) is a film, whose file must end in "
+                                ".film; `parhelion merge` makes a picture of all parts");
+    check_output_file(file, force);
+}
+
+/// Whether a file is what a render of that digest left when it was stopped.
+bool is_left_by(const std::string& file, bool film, const std::string& digest) {
+    if (!film)
+        return exr_attribute(file, digest_attribute) == digest &&
+               !exr_attribute(file, unfinished_attribute).empty();
+    try {
+        const FilmFile left(file);
+        const FilmHeader& header = left.header();
+        return render_digest(header.key, header.samples_per_pixel) == digest &&
+               header.state.samples != header.part;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+} // namespace
+
+bool writes_film(const RenderCommand& command) { return command.shard.has_value(); }
+
+void check_outputs(const RenderCommand& command) {
+    const bool may_exist = command.force || goes_on(command);
+    if (writes_film(command))
+        check_film_output(command.output, may_exist);
+    else
+        check_output(command.output, may_exist);
+    if (!command.stats_file.empty()) check_output_file(command.stats_file, command.force);
+    if (!command.checkpoint.empty())
+        check_output_file(command.checkpoint,
+                          may_exist && (command.goes_on || command.resume == command.checkpoint ||
+                                        command.force));
+}
+
+Existing check_left_over(const RenderCommand& command, const std::string& digest) {
+    if (command.force) return Existing::replace;
+    if (!exists(command.output)) return Existing::keep;
+    if (!is_left_by(command.output, writes_film(command), digest))
+        throw InputError(command.output + ": exists, and is not what this render left when it was "
+                                          "stopped; give --force to replace it");
+    return Existing::replace;
+}
+
+std::vector<std::pair<std::string, MetadataValue>>
+metadata_of(const Scene& scene, const RenderReport& report, const std::string& digest) {
+    std::vector<std::pair<std::string, MetadataValue>> metadata{
+        {"software", fmt::format("parhelion {}", version_number)},
+        {"commit", std::string(version_commit)},
+        {"scene", scene.file},
+        {"samplesPerPixel", static_cast<std::int64_t>(scene.sampler.samples_per_pixel)},
+        {"seed", static_cast<std::int64_t>(scene.sampler.seed)},
+        {"device", report.device},
+        {digest_attribute, digest}};
+    if (report.lenient)
+        metadata.emplace_back("notes", fmt::format("{}", fmt::join(report.notes, "\n")));
+    return metadata;
+}
+
+void add_unfinished(const FilmHeader& header, Image& image) {
+    const SampleSet all = header.all();
+    if (header.state.samples == all) return;
+    const double mean = static_cast<double>(sample_count(header.state.samples)) / header.blocks;
+    image.metadata.emplace_back(unfinished_attribute,
+                                fmt::format("{:.2f} of {} samples a pixel, at least {}", mean,
+                                            header.samples_per_pixel,
+                                            fewest_samples(header.state.samples, header.blocks)));
+}
+
+} // namespace parhelion

@@ -1,0 +1,30 @@
+// What a render writes at its end, and what may be there before.
+#pragma once
+
+#include "host/commands/render.h"
+#include "host/film/film_file.h"
+#include "host/render/session.h"
+
+namespace parhelion {
+
+/// Whether the film itself is asked for, to be merged.
+bool writes_film(const RenderCommand& command);
+
+/// Refuses, before anything is done, outputs that could not be written later. Where a render goes
+/// on with another (--resume, --continue), what that has left of its picture may be there: see
+/// check_left_over. Throws InputError.
+void check_outputs(const RenderCommand& command);
+
+/// Whether the output that is there, if there is one, may be replaced by that of the render of this
+/// digest: by --force, or because it is what such a render left when it was stopped. Throws
+/// InputError for another.
+Existing check_left_over(const RenderCommand& command, const std::string& digest);
+
+/// What the header of a picture says of its render.
+std::vector<std::pair<std::string, MetadataValue>>
+metadata_of(const Scene& scene, const RenderReport& report, const std::string& digest);
+
+/// Of a film whose samples are not all there: that, for whoever finds the picture.
+void add_unfinished(const FilmHeader& header, Image& image);
+
+} // namespace parhelion

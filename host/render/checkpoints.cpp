@@ -1,0 +1,32 @@
+// A film that is kept in a file while it is rendered, for a later render to go on with.
+#include "host/render/checkpoints.h"
+
+#include "host/error.h"
+#include "host/streams.h"
+
+#include <fmt/format.h>
+
+namespace parhelion {
+
+Checkpoints::Checkpoints(std::string file, double seconds, FilmHeader header)
+    : file_(std::move(file)), seconds_(seconds), header_(std::move(header)) {}
+
+bool Checkpoints::due() const { return !file_.empty() && seconds_since(last_) >= seconds_; }
+
+void Checkpoints::save(Session& session) {
+    if (file_.empty() || !session.in_whole_groups()) return;
+    header_.state = session.state();
+    last_ = Clock::now();
+    if (header_.state.samples.empty() || (header_.state.samples == kept_ && !failed_)) return;
+    try {
+        write_film(file_, header_, *session.film(), Existing::replace);
+        kept_ = header_.state.samples;
+        failed_ = false;
+    } catch (const OutputError& e) {
+        failed_ = true;
+        say(fmt::format("warning: no checkpoint could be written: {}; rendering goes on",
+                        e.what()));
+    }
+}
+
+} // namespace parhelion
