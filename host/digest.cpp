@@ -39,8 +39,8 @@ std::string digest_of_file(const std::filesystem::path& file) {
     return text_of(XXH3_128bits_digest(state.get()));
 }
 
-std::uint64_t checksum_of(std::span<const std::uint32_t> words) {
-    return XXH3_64bits(words.data(), words.size_bytes());
+std::uint64_t checksum_of(std::span<const std::uint32_t> words, std::uint64_t said) {
+    return XXH3_64bits_withSeed(words.data(), words.size_bytes(), said);
 }
 
 } // namespace parhelion

@@ -15,7 +15,7 @@ std::string digest_of(std::string_view bytes);
 /// Of a file's bytes. Throws InputError where it cannot be read.
 std::string digest_of_file(const std::filesystem::path& file);
 
-/// Against damage.
-std::uint64_t checksum_of(std::span<const std::uint32_t> words);
+/// Against damage, of the words and of what is said of them.
+std::uint64_t checksum_of(std::span<const std::uint32_t> words, std::uint64_t said = 0);
 
 } // namespace parhelion

@@ -71,6 +71,9 @@ nlohmann::json to_json(const FilmContent& c) {
               {"radiance_unit", c.frame.radiance_unit}}}};
 }
 
+/// Of layers, with room for more than there are.
+constexpr int most_channels = 64;
+
 /// What a film may be made by.
 void check(const FilmContent& c) {
     const Film& f = c.film;
@@ -79,7 +82,7 @@ void check(const FilmContent& c) {
     };
     bool good = inside(f.crop_x, f.crop_width, f.width) &&
                 inside(f.crop_y, f.crop_height, f.height) && c.aovs.channels >= 0 &&
-                c.aovs.channels < 1024;
+                c.aovs.channels <= most_channels;
     for (const AovLayer& layer : c.aovs.layers)
         good = good && layer.channel >= 0 &&
                layer.channel + aov_kinds[layer.kind].channels <= c.aovs.channels;

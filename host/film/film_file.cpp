@@ -33,7 +33,11 @@ struct RowBegin {
     std::uint32_t y;
     std::uint16_t channel;
     std::uint8_t first, count; ///< digits
-    std::uint64_t checksum;
+    std::uint64_t checksum;    ///< of the digits and their place
+
+    std::uint64_t place() const {
+        return std::uint64_t{y} << 32 | std::uint64_t{channel} << 16 | first << 8 | count;
+    }
 };
 
 constexpr std::uint32_t end_mark =
@@ -68,9 +72,10 @@ bool put_row(std::ostream& out, int y, int channel, const SumRow& row) {
         end--;
     if (first == end) return false;
     const std::span digits(row.digit(first).data(), (end - first) * row.width());
-    put(out, RowBegin{static_cast<std::uint32_t>(y), static_cast<std::uint16_t>(channel),
-                      static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(end - first),
-                      checksum_of(digits)});
+    RowBegin begin{static_cast<std::uint32_t>(y), static_cast<std::uint16_t>(channel),
+                   static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(end - first), 0};
+    begin.checksum = checksum_of(digits, begin.place());
+    put(out, begin);
     put_words(out, digits);
     return true;
 }
@@ -166,7 +171,9 @@ void FilmFile::find_rows() {
         read(at, &row, sizeof row);
         at += sizeof row;
         if (row.y == end_mark) {
-            if (row.checksum != count || at != size_) throw InputError("it ends otherwise");
+            if (row.place() != RowBegin{end_mark, 0, 0, 0, 0}.place() || row.checksum != count ||
+                at != size_)
+                throw InputError("it ends otherwise");
             return;
         }
         if (row.y >= height || row.channel >= channels || row.first + row.count > EXACT_WORDS)
@@ -184,7 +191,9 @@ void FilmFile::add_row(int channel, int y, SumRow& row) const {
     SumRow read_row(static_cast<int>(row.width()));
     const std::span digits(read_row.digit(known.first).data(), known.count * row.width());
     read(known.at, digits.data(), digits.size_bytes());
-    if (checksum_of(digits) != known.checksum)
+    const RowBegin begin{static_cast<std::uint32_t>(y), static_cast<std::uint16_t>(channel),
+                         known.first, known.count, 0};
+    if (checksum_of(digits, begin.place()) != known.checksum)
         throw InputError(fmt::format("{}: is damaged in row {} of its picture", name_, y));
     add_digits(row, 0, row.width(), [&](int k) { return read_row.digit(k).data(); });
 }

@@ -14,6 +14,7 @@ struct WorkSplit {
     int segment_paths = 2048; ///< paths one work-item owns; made a multiple of 16
     int work_group_size = 1;
     int streams = 0; ///< waves under way at once, which share the pool; 0: what suits the device
+    std::size_t film_bytes = 0; ///< of a band of the film; 0: what suits the device
 };
 
 /// Sizes that follow from film, samples and split, of one stream.
