@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <sstream>
 
 #include <sched.h>
 #include <sys/resource.h>
@@ -41,8 +42,10 @@ int usable_processors() {
 }
 
 std::uint64_t meminfo_bytes(const std::string& key) {
-    const std::string text = value_in("/proc/meminfo", key, ':');
-    return text.empty() ? 0 : std::stoull(text) * 1024;
+    std::istringstream text(value_in("/proc/meminfo", key, ':')); // "24684044 kB"
+    std::uint64_t kilobytes = 0;
+    text >> kilobytes;
+    return kilobytes * 1024;
 }
 
 std::optional<std::uint64_t> address_space() {
