@@ -4,10 +4,12 @@
 #include "host/film/two_doubles.h"
 #include "kernels/shared/types.h"
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace parhelion {
 
@@ -34,11 +36,18 @@ inline TwoDoubles exact_value(const std::uint32_t* digits, std::size_t stride) {
     const double sign = negative ? -1 : 1;
     if (top == EXACT_WORDS - 1) // from 2^139 on
         return {sign * std::numeric_limits<double>::infinity(), 0};
-    // The upper half in two parts, each of so few bits that a double holds it.
+    // From the highest bit on that is not 0, so that two doubles hold as much as they can.
+    int exponent = 32 * (top - 1) - 149;
+    if (upper == 0) upper = std::exchange(lower, 0), exponent -= 64;
+    if (upper == 0) return {0, 0};
+    if (const int spare = std::countl_zero(upper); spare > 0) {
+        upper = upper << spare | lower >> (64 - spare);
+        lower <<= spare, exponent -= spare;
+    }
     constexpr std::uint64_t below = 1u << 11;
     const double high = static_cast<double>(upper / below) * 2048.0;
     const double low = static_cast<double>(upper % below) + static_cast<double>(lower) * 0x1p-64;
-    const double unit = sign * std::ldexp(1.0, 32 * (top - 1) - 149);
+    const double unit = sign * std::ldexp(1.0, exponent);
     return quick_sum(high * unit, low * unit);
 }
 
