@@ -2,13 +2,13 @@
 #include "host/stop_signals.h"
 
 #include "host/error.h"
+#include "host/streams.h"
 
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <csignal>
-#include <string_view>
 
 namespace parhelion {
 namespace {
@@ -24,14 +24,19 @@ std::atomic<bool> noting = false;
 std::atomic<int> noted = 0;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
+#define NOTHING "stopped by a signal; nothing was rendered"
+#define AT_ONCE "stopped at once by a second signal"
+#define AS_TEXT(message) "parhelion: " message "\n"
+#define AS_JSON(message) "{\"state\":\"note\",\"message\":\"" message "\"}\n"
+
 // Only what a handler may call.
 void handle(int number) {
     int none = 0;
     if (noting && noted.compare_exchange_strong(none, number)) return;
-    constexpr std::string_view nothing = "parhelion: stopped by a signal; nothing was rendered\n",
-                               again = "parhelion: stopped at once by a second signal\n";
-    const std::string_view text = noting ? again : nothing;
-    static_cast<void>(!write(STDERR_FILENO, text.data(), text.size()));
+    if (message_form() == MessageForm::json)
+        show(noting ? AS_JSON(AT_ONCE) : AS_JSON(NOTHING));
+    else
+        show(noting ? AS_TEXT(AT_ONCE) : AS_TEXT(NOTHING));
     _exit(static_cast<int>(ExitCode::stopped));
 }
 

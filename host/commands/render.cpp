@@ -2,25 +2,19 @@
 #include "host/commands/render.h"
 
 #include "host/clock.h"
-#include "host/commands/bad_sample_warning.h"
 #include "host/commands/cache_help.h"
 #include "host/commands/compile.h"
-#include "host/commands/duration.h"
-#include "host/commands/misfit_warning.h"
 #include "host/commands/render_key.h"
 #include "host/commands/render_messages.h"
 #include "host/commands/render_outputs.h"
+#include "host/commands/render_session.h"
 #include "host/error.h"
 #include "host/image/distinct_files.h"
 #include "host/image/output.h"
-#include "host/image/write_image.h"
-#include "host/json_text.h"
 #include "host/progress.h"
-#include "host/render/checkpoints.h"
 #include "host/render/host_render.h"
 #include "host/scene/load.h"
 #include "host/stop_signals.h"
-#include "host/streams.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -111,50 +105,6 @@ FilmHeader header_of(const RenderCommand& command, const Scene& scene, const Ses
     return header;
 }
 
-/// Renders until everything is on the film, or something says to stop; returns what does.
-std::string run(const RenderCommand& command, Clock::time_point started, Session& session,
-                Checkpoints& checkpoints) {
-    const double limit = command.time_limit ? parse_duration("--time-limit", *command.time_limit)
-                                            : std::numeric_limits<double>::infinity();
-    std::string reason;
-    const auto stop = [&] {
-        reason = noted_signal();
-        if (reason.empty() && seconds_since(started) >= limit) reason = "--time-limit";
-        return !reason.empty() || checkpoints.due();
-    };
-    while (!session.finished() && reason.empty()) {
-        session.step(stop);
-        if (checkpoints.due() || !reason.empty() || session.groups_finished())
-            checkpoints.save(session);
-    }
-    return session.finished() ? "" : reason;
-}
-
-/// Returns whether a value of the picture is not what it should be.
-bool write_picture(const RenderCommand& command, const FilmHeader& header, Session& session,
-                   Existing existing, RenderReport& report) {
-    Image image = session.image();
-    image.metadata = header.metadata;
-    add_unfinished(header, image);
-    const Film& film = header.content.film;
-    report.misfits = write_image(
-        command.output, image, {command.exposure.value_or(0.0), {film.component_format, existing}});
-    if (report.misfits.empty()) return false;
-    say(misfit_warning(command.output, film, report));
-    return true;
-}
-
-std::string stopped_text(const RenderCommand& command, const FilmHeader& header,
-                         const std::string& reason) {
-    const double share = static_cast<double>(sample_count(header.state.samples & header.part)) /
-                         static_cast<double>(sample_count(header.part));
-    const std::string go_on = command.checkpoint.empty()
-                                  ? "there is no checkpoint to go on from (--checkpoint)"
-                                  : fmt::format("--resume {} goes on", command.checkpoint);
-    return fmt::format("stopped by {} with {:.1f} % of the samples; {}", reason, 100 * share,
-                       go_on);
-}
-
 } // namespace
 
 int run_render(const RenderCommand& command) {
@@ -172,10 +122,10 @@ int run_render(const RenderCommand& command) {
     Progress progress(Progress::mode_of(command.progress, command.quiet));
 
     const Scene scene = load(command, messages, progress);
+    const int samples = scene.sampler.samples_per_pixel;
     const RenderKey key = render_key(command, scene);
-    const Existing existing =
-        check_left_over(command, render_digest(key, scene.sampler.samples_per_pixel));
-    const auto film = film_to_go_on_from(command, key, scene.sampler.samples_per_pixel);
+    const Existing existing = check_left_over(command, render_digest(key, samples));
+    const auto film = film_to_go_on_from(command, key, samples);
     const double load_seconds = seconds_since(started);
     OpenedRender opened = open_where_asked(command, scene, progress);
     opened.report.load_seconds = load_seconds;
@@ -184,33 +134,10 @@ int run_render(const RenderCommand& command) {
     const RenderReport begun = opened.report;
     Session session(std::move(opened), shard_of(command), progress);
     if (film) session.take_up(*film, film->header().state);
-    FilmHeader header = header_of(command, scene, session, key, begun);
-
-    note_signals();
-    Checkpoints checkpoints(command.checkpoint,
-                            parse_duration("--checkpoint-every", command.checkpoint_every), header);
-    const std::string reason = run(command, started, session, checkpoints);
-    RenderReport report = session.report();
-    header.state = session.state();
-    // Not a matter of progress: told when quiet, too.
-    bool bad = report.non_finite_samples > 0;
-    if (bad) say(bad_sample_warning(command, report));
-
-    const auto start = Clock::now();
-    if (writes_film(command))
-        write_film(command.output, header, *session.film(), existing);
-    else
-        bad |= write_picture(command, header, session, existing, report);
-    report.write_seconds = seconds_since(start);
-    report.host_peak_bytes = peak_host_bytes();
-    if (!command.stats_file.empty())
-        write_text_file(command.stats_file, json_text(to_json(report)),
-                        existing_files(command.force));
+    const ExitCode code = render_session(command, started, session,
+                                         header_of(command, scene, session, key, begun), existing);
     progress.note("wrote " + command.output);
-    if (!reason.empty()) say(stopped_text(command, header, reason));
-    if (!reason.empty()) return static_cast<int>(ExitCode::stopped);
-    if (checkpoints.failed()) return static_cast<int>(ExitCode::output_failure);
-    return static_cast<int>(bad && command.strict ? ExitCode::different : ExitCode::ok);
+    return static_cast<int>(code);
 }
 
 Subcommand render_subcommand() {

@@ -15,6 +15,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 namespace parhelion {
 namespace {
@@ -106,6 +107,12 @@ void write_film(const std::string& file, const FilmHeader& header, const FilmSum
     if (!out)
         throw OutputError(fmt::format("{}: cannot be written: {}", file, std::strerror(errno)));
     pending.commit();
+}
+
+std::string film_bytes(const FilmHeader& header, const FilmSums& sums) {
+    std::ostringstream out;
+    put_film(out, header, sums);
+    return std::move(out).str();
 }
 
 struct FilmFile::Row {

@@ -39,6 +39,9 @@ struct FilmHeader {
 void write_film(const std::string& file, const FilmHeader& header, const FilmSums& sums,
                 Existing existing);
 
+/// What such a file holds, to be written later.
+std::string film_bytes(const FilmHeader& header, const FilmSums& sums);
+
 /// A film in a file; rows are read from there when they are asked for.
 class FilmFile : public FilmSums {
 public:

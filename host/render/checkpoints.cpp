@@ -13,20 +13,32 @@ Checkpoints::Checkpoints(std::string file, double seconds, FilmHeader header)
 
 bool Checkpoints::due() const { return !file_.empty() && seconds_since(last_) >= seconds_; }
 
-void Checkpoints::save(Session& session) {
-    if (file_.empty() || !session.in_whole_groups()) return;
-    header_.state = session.state();
-    last_ = Clock::now();
-    if (header_.state.samples.empty() || (header_.state.samples == kept_ && !failed_)) return;
+bool Checkpoints::finish() {
+    if (!writing_.valid()) return !failed_;
     try {
-        write_film(file_, header_, *session.film(), Existing::replace);
-        kept_ = header_.state.samples;
+        writing_.get();
         failed_ = false;
     } catch (const OutputError& e) {
         failed_ = true;
+        kept_.clear();
         say(fmt::format("warning: no checkpoint could be written: {}; rendering goes on",
                         e.what()));
     }
+    return !failed_;
+}
+
+void Checkpoints::save(Session& session) {
+    if (file_.empty() || !session.in_whole_groups()) return;
+    finish();
+    header_.state = session.state();
+    last_ = Clock::now();
+    if (header_.state.samples.empty() || header_.state.samples == kept_) return;
+    kept_ = header_.state.samples;
+    // Waiting for a disk takes longer than copying what there is.
+    writing_ = std::async(std::launch::async,
+                          [file = file_, bytes = film_bytes(header_, *session.film())] {
+                              write_text_file(file, bytes, Existing::replace);
+                          });
 }
 
 } // namespace parhelion

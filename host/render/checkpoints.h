@@ -5,6 +5,7 @@
 #include "host/film/film_file.h"
 #include "host/render/session.h"
 
+#include <future>
 #include <string>
 
 namespace parhelion {
@@ -17,18 +18,19 @@ public:
     /// Whether it is time for the next.
     bool due() const;
     /// Keeps what is on the film, unless it is kept already or has parts of groups of samples,
-    /// which nothing can go on from: then the one before stays. Where it cannot be written, that
-    /// stays too, and a warning says so; rendering goes on.
+    /// which nothing can go on from: then the one before stays. It is written while rendering goes
+    /// on; where it cannot be, the one before stays too, and a warning says so.
     void save(Session& session);
-    /// Whether the last one could not be written.
-    bool failed() const { return failed_; }
+    /// Waits for the last one; whether it is there, if any was asked for.
+    bool finish();
 
 private:
     std::string file_;
     double seconds_;
     FilmHeader header_;
-    SampleSet kept_;
+    SampleSet kept_; ///< as far as is known
     Clock::time_point last_ = Clock::now();
+    std::future<void> writing_;
     bool failed_ = false;
 };
 

@@ -185,9 +185,9 @@ OpenedRender open_on_device(const Scene& scene, RenderDevice& device, const Rend
     report.tracing_lanes = device.device.tracing_lanes(options.lanes);
     WorkSplit split = options.split;
     split.streams = options.checked ? 1 : stream_count(split, device.device);
-    const FilmLayout layout = in_bands(
-        film_layout(scene, aovs),
-        split.film_bytes > 0 ? split.film_bytes : film_bytes_at_once(device.device));
+    const FilmLayout layout =
+        in_bands(film_layout(scene, aovs),
+                 split.film_bytes > 0 ? split.film_bytes : film_bytes_at_once(device.device));
     check_film_memory(scene, layout, device.device);
     const int samples = scene.sampler.samples_per_pixel;
     const WorkSizes sizes = work_sizes(layout, samples, report.lanes, split);

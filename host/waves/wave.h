@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/film/sample_set.h"
-#include "kernels/shared/types.h"
+#include "kernels/device/buffers.h"
 
 #include <vector>
 

@@ -6,6 +6,22 @@
 #ifndef PARHELION_BUFFERS_H
 #define PARHELION_BUFFERS_H
 
+#include "shared/types.h"
+
+// A wave: as many samples of each of its blocks, of which WaveBlock says which. The film there is
+// has the tiles from that of block film_first on. Which sample a slot of the pool is, wave.h says.
+typedef struct {
+    int block_count, sample_count;
+    int film_first, unused;
+} WaveParams;
+LAYOUT(WaveParams, 16);
+
+// A block, by its number in the sampled window, and its first sample in a wave.
+typedef struct {
+    int block, first_sample;
+} WaveBlock;
+LAYOUT(WaveBlock, 8);
+
 // The lists below are tables.
 // clang-format off
 

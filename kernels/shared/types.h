@@ -287,20 +287,6 @@ typedef struct {
 } RenderParams;
 LAYOUT(RenderParams, 120 + 32 * 4 + AOV_LIMIT * 4);
 
-// A wave: as many samples of each of its blocks, of which WaveBlock says which. The film there is has the tiles from that of
-// block film_first on. Which sample a slot of the pool is, device/wave.h says.
-typedef struct {
-    int block_count, sample_count;
-    int film_first, unused;
-} WaveParams;
-LAYOUT(WaveParams, 16);
-
-// A block, by its number in the sampled window, and its first sample in a wave.
-typedef struct {
-    int block, first_sample;
-} WaveBlock;
-LAYOUT(WaveBlock, 8);
-
 // Pixels are sampled and summed up in square blocks.
 #define BLOCK_SHIFT 2
 #define BLOCK_SIDE (1 << BLOCK_SHIFT)

@@ -1,0 +1,105 @@
+// A session of `parhelion render`, to its end or until something stops it, and what it leaves.
+#include "host/commands/render_session.h"
+
+#include "host/commands/bad_sample_warning.h"
+#include "host/commands/duration.h"
+#include "host/commands/misfit_warning.h"
+#include "host/commands/render_outputs.h"
+#include "host/image/write_image.h"
+#include "host/json_text.h"
+#include "host/render/checkpoints.h"
+#include "host/stop_signals.h"
+#include "host/streams.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace parhelion {
+namespace {
+
+/// Renders until everything is on the film, or something says to stop; returns what does.
+std::string run(const RenderCommand& command, Clock::time_point started, Session& session,
+                Checkpoints& checkpoints) {
+    const double limit = command.time_limit ? parse_duration("--time-limit", *command.time_limit)
+                                            : std::numeric_limits<double>::infinity();
+    std::string reason;
+    const auto stop = [&] {
+        reason = noted_signal();
+        if (reason.empty() && seconds_since(started) >= limit) reason = "--time-limit";
+        return !reason.empty() || checkpoints.due();
+    };
+    while (!session.finished() && reason.empty()) {
+        session.step(stop);
+        if (checkpoints.due() || !reason.empty() || session.groups_finished())
+            checkpoints.save(session);
+    }
+    return session.finished() ? "" : reason;
+}
+
+/// Returns whether the file holds every value of the picture.
+bool write_picture(const RenderCommand& command, const FilmHeader& header, Session& session,
+                   Existing existing, RenderReport& report) {
+    Image image = session.image();
+    image.metadata = header.metadata;
+    add_unfinished(header, image);
+    const Film& film = header.content.film;
+    report.misfits = write_image(
+        command.output, image, {command.exposure.value_or(0.0), {film.component_format, existing}});
+    if (report.misfits.empty()) return true;
+    say(misfit_warning(command.output, film, report));
+    return false;
+}
+
+std::string stopped_text(const RenderCommand& command, const FilmHeader& header,
+                         const std::string& reason) {
+    const double share = static_cast<double>(sample_count(header.state.samples & header.part)) /
+                         static_cast<double>(sample_count(header.part));
+    const std::string go_on = command.checkpoint.empty()
+                                  ? "there is no checkpoint to go on from (--checkpoint)"
+                                  : fmt::format("--resume {} goes on", command.checkpoint);
+    return fmt::format("stopped by {} with {:.1f} % of the samples; {}", reason, 100 * share,
+                       go_on);
+}
+
+/// Writes what there is when rendering has ended; whether nothing was wrong with it.
+bool write_outputs(const RenderCommand& command, const FilmHeader& header, Session& session,
+                   Existing existing) {
+    RenderReport report = session.report();
+    // Not a matter of progress: told when quiet, too.
+    bool good = report.non_finite_samples == 0;
+    if (!good) say(bad_sample_warning(command, report));
+    const auto start = Clock::now();
+    if (writes_film(command))
+        write_film(command.output, header, *session.film(), existing);
+    else
+        good &= write_picture(command, header, session, existing, report);
+    report.write_seconds = seconds_since(start);
+    report.host_peak_bytes = peak_host_bytes();
+    if (!command.stats_file.empty())
+        write_text_file(command.stats_file, json_text(to_json(report)),
+                        existing_files(command.force));
+    return good;
+}
+
+} // namespace
+
+ExitCode render_session(const RenderCommand& command, Clock::time_point started, Session& session,
+                        FilmHeader header, Existing existing) {
+    note_signals();
+    Checkpoints checkpoints(command.checkpoint,
+                            parse_duration("--checkpoint-every", command.checkpoint_every), header);
+    const std::string reason = run(command, started, session, checkpoints);
+    const bool kept = checkpoints.finish();
+    header.state = session.state();
+    const bool good = write_outputs(command, header, session, existing);
+    if (!reason.empty()) {
+        say(stopped_text(command, header, reason));
+        return ExitCode::stopped;
+    }
+    if (!kept) return ExitCode::output_failure;
+    return !good && command.strict ? ExitCode::different : ExitCode::ok;
+}
+
+} // namespace parhelion
