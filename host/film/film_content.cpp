@@ -78,14 +78,14 @@ constexpr int most_channels = 64;
 void check(const FilmContent& c) {
     const Film& f = c.film;
     const auto inside = [](int from, int count, int all) {
-        return from >= 0 && count > 0 && all <= 65536 && from <= all - count;
+        return from >= 0 && count > 0 && all > 0 && all <= 65536 && from <= all - count;
     };
     bool good = inside(f.crop_x, f.crop_width, f.width) &&
                 inside(f.crop_y, f.crop_height, f.height) && c.aovs.channels >= 0 &&
                 c.aovs.channels <= most_channels;
     for (const AovLayer& layer : c.aovs.layers)
         good = good && layer.channel >= 0 &&
-               layer.channel + aov_kinds[layer.kind].channels <= c.aovs.channels;
+               layer.channel <= c.aovs.channels - aov_kinds[layer.kind].channels;
     if (!good) throw InputError("its picture cannot be");
 }
 

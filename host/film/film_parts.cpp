@@ -32,12 +32,13 @@ void check_same(const FilmFile& a, const FilmFile& b) {
         throw InputError(fmt::format("{}: is of another picture than {}", b.name(), a.name()));
 }
 
-/// K of the name "K/N by ..." and the rest of it; 0 where it has another form.
+/// K of the name "K/N by ..." and the rest of it, from the slash on; 0 where it has another form.
 std::pair<int, std::string> numbered(const std::string& name) {
     int number = 0;
     const char* end = name.data() + name.size();
     const auto [rest, error] = std::from_chars(name.data(), end, number);
-    return {error == std::errc() ? number : 0, std::string(rest, end)};
+    const bool known = error == std::errc() && rest != end && *rest == '/';
+    return {known ? number : 0, std::string(rest, end)};
 }
 
 /// The names of parts that are not there, where those that are have been numbered alike.
@@ -49,7 +50,9 @@ std::vector<std::string> missing_names(const std::deque<FilmFile>& parts) {
         if (number == 0 || (!of.empty() && rest != of)) return {};
         there.insert(number), of = rest;
     }
-    const int count = numbered(of.substr(1)).first; // "/N by ..."
+    int count = 0; // "/N by ..."
+    std::from_chars(of.data() + 1, of.data() + of.size(), count);
+    count = std::min(count, most_shards);
     std::vector<std::string> names;
     for (int number = 1; number <= count; number++)
         if (there.count(number) == 0) names.push_back(fmt::format("{}/{}", number, count));

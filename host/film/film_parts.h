@@ -9,6 +9,9 @@
 
 namespace parhelion {
 
+/// As many as a render is shared out to.
+inline constexpr int most_shards = 65536;
+
 /// Throws InputError, in one line, where two are not of one render or share samples, naming them.
 /// At least one.
 void check_parts(const std::deque<FilmFile>& parts);

@@ -2,6 +2,7 @@
 #include "host/render/shard.h"
 
 #include "host/error.h"
+#include "host/film/film_parts.h"
 #include "host/scene/text.h"
 #include "kernels/shared/types.h"
 
@@ -61,11 +62,10 @@ Shard parse_shard(const std::string& text) {
     };
     const auto number = part(0, slash);
     const auto count = slash == std::string::npos ? std::nullopt : part(slash + 1, text.size());
-    constexpr int most = 65536;
-    if (!number || !count || *number < 1 || *number > *count || *count > most)
+    if (!number || !count || *number < 1 || *number > *count || *count > most_shards)
         throw InputError(fmt::format("--shard: found {}; accepted: K/N, part K of N, with K from 1 "
                                      "to N and N up to {}",
-                                     in_quotes(text), most));
+                                     in_quotes(text), most_shards));
     return {*number, *count};
 }
 

@@ -184,6 +184,12 @@ TEST_CASE("Film files: parts that are double, missing or of another render are n
     CHECK_THROWS_WITH(missing(open({a, b, a})), Catch::StartsWith(a + ": has samples that " + a));
     CHECK_THROWS_WITH(missing(open({a, c})), Catch::Contains("--seed: 7 there, 8 here"));
     CHECK_THROWS_WITH(missing(open({a, d})), Catch::Contains("is of 65 samples a pixel"));
+    for (const char* name : {"3", "1/", "/2", "1/99999999999 by", "x/y by", "2/2 by blocks"}) {
+        FilmHeader named = second;
+        named.part_name = name;
+        CHECK_THAT(missing(open({part("b.film", named)})),
+                   Catch::StartsWith("50.00 % of the samples are missing"));
+    }
     const FilmHeader added = added_header(open({a, b}));
     CHECK(added.state.counts[statistic_camera_rays] == 2 * 12345678901ULL);
     for (const std::string& name : {a, b, c, d, e})
