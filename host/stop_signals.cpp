@@ -9,6 +9,8 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 
 namespace parhelion {
 namespace {
@@ -22,9 +24,16 @@ constexpr std::array stop_signals{StopSignal{SIGINT, "SIGINT"}, StopSignal{SIGTE
 // A process has one of each signal, and what handles it gets nothing but its number.
 std::atomic<bool> noting = false;
 std::atomic<int> noted = 0;
+std::atomic<std::int64_t> noted_at = 0; // milliseconds
+
+std::int64_t milliseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return now.tv_sec * 1000 + now.tv_nsec / 1'000'000;
+}
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-#define NOTHING "stopped by a signal; nothing was rendered"
+#define NOTHING "stopped by a signal before anything was rendered"
 #define AT_ONCE "stopped at once by a second signal"
 #define AS_TEXT(message) "parhelion: " message "\n"
 #define AS_JSON(message) "{\"state\":\"note\",\"message\":\"" message "\"}\n"
@@ -32,7 +41,12 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_alw
 // Only what a handler may call.
 void handle(int number) {
     int none = 0;
-    if (noting && noted.compare_exchange_strong(none, number)) return;
+    if (noting && noted.compare_exchange_strong(none, number)) {
+        noted_at = milliseconds();
+        return;
+    }
+    // Who sends a signal often sends it twice: to the process and to its group, say.
+    if (noting && milliseconds() - noted_at < 1000) return;
     if (message_form() == MessageForm::json)
         show(noting ? AS_JSON(AT_ONCE) : AS_JSON(NOTHING));
     else

@@ -9,8 +9,9 @@ namespace parhelion {
 /// process at once with ExitCode::stopped and a line that says so: there is nothing to be kept.
 void end_on_signals();
 
-/// From now on the first of them is only noted, for whoever renders to ask; the next one ends the
-/// process at once. Files appear whole or not at all whenever that is.
+/// From now on the first of them is only noted, for whoever renders to ask; the next one, a
+/// second or more after it, ends the process at once. Files appear whole or not at all whenever
+/// that is.
 void note_signals();
 
 /// The name of the one that was noted, or nothing.

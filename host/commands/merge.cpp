@@ -79,7 +79,8 @@ int run_merge(const MergeCommand& command) {
     check_files(command);
     allow_many_files();
     Progress progress(Progress::mode_of(command.progress, command.quiet));
-    progress.start("opening", fmt::format("{} parts", command.parts.size()));
+    progress.start("opening", fmt::format("{} film{}", command.parts.size(),
+                                          command.parts.size() == 1 ? "" : "s"));
     const std::deque<FilmFile> parts = opened(command, progress);
     const FilmHeader header = added_header(parts);
     progress.finish("");

@@ -80,6 +80,11 @@ std::unique_ptr<FilmFile> film_to_go_on_from(const RenderCommand& command, const
     if (file.empty()) return nullptr;
     auto film = std::make_unique<FilmFile>(file);
     check_same_render(*film, key);
+    const std::string theirs = film->header().part_name, ours = part_name(shard_of(command));
+    if (!ours.empty() && theirs != ours)
+        throw InputError(fmt::format("{}: is {}, not part {}", file,
+                                     theirs.empty() ? "no part of a render" : "part " + theirs,
+                                     ours));
     try {
         check_goes_on(film->header().state.samples, samples_per_pixel);
     } catch (const InputError& e) {
@@ -95,10 +100,7 @@ FilmHeader header_of(const RenderCommand& command, const Scene& scene, const Ses
     header.content = session.content();
     header.blocks = session.blocks();
     header.samples_per_pixel = scene.sampler.samples_per_pixel;
-    const Shard shard = shard_of(command);
-    if (!shard.is_all())
-        header.part_name = fmt::format("{}/{} by {}", shard.number, shard.count,
-                                       sharding_names[static_cast<std::size_t>(shard.by)]);
+    header.part_name = part_name(shard_of(command));
     header.part = session.all();
     header.metadata =
         metadata_of(scene, report, render_digest(key, scene.sampler.samples_per_pixel));
@@ -124,7 +126,11 @@ int run_render(const RenderCommand& command) {
     const Scene scene = load(command, messages, progress);
     const int samples = scene.sampler.samples_per_pixel;
     const RenderKey key = render_key(command, scene);
-    const Existing existing = check_left_over(command, render_digest(key, samples));
+    const std::optional<Existing> existing = check_left_over(command, render_digest(key, samples));
+    if (!existing) {
+        progress.note(command.output + " is there already, whole");
+        return static_cast<int>(ExitCode::ok);
+    }
     const auto film = film_to_go_on_from(command, key, samples);
     const double load_seconds = seconds_since(started);
     OpenedRender opened = open_where_asked(command, scene, progress);
@@ -133,9 +139,14 @@ int run_render(const RenderCommand& command) {
     opened.report.lenient = command.lenient;
     const RenderReport begun = opened.report;
     Session session(std::move(opened), shard_of(command), progress);
-    if (film) session.take_up(*film, film->header().state);
+    if (film) {
+        session.take_up(*film, film->header().state);
+        progress.note(fmt::format("goes on from {}, with {:.1f} % of the samples", film->name(),
+                                  100 * session.share()));
+    }
+    if (session.all().empty()) progress.note("note: there are no samples for this part");
     const ExitCode code = render_session(command, started, session,
-                                         header_of(command, scene, session, key, begun), existing);
+                                         header_of(command, scene, session, key, begun), *existing);
     progress.note("wrote " + command.output);
     return static_cast<int>(code);
 }

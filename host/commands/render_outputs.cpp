@@ -32,18 +32,24 @@ void check_film_output(const std::string& file, bool force) {
     check_output_file(file, force);
 }
 
-/// Whether a file is what a render of that digest left when it was stopped.
-bool is_left_by(const std::string& file, bool film, const std::string& digest) {
-    if (!film)
-        return exr_attribute(file, digest_attribute) == digest &&
-               !exr_attribute(file, unfinished_attribute).empty();
+enum class Left { other, unfinished, whole };
+
+/// What the output that is there is to the render of that digest.
+Left left_by(const RenderCommand& command, const std::string& digest) {
+    const std::string& file = command.output;
+    if (!writes_film(command)) {
+        if (exr_attribute(file, digest_attribute) != digest) return Left::other;
+        return exr_attribute(file, unfinished_attribute).empty() ? Left::whole : Left::unfinished;
+    }
     try {
         const FilmFile left(file);
         const FilmHeader& header = left.header();
-        return render_digest(header.key, header.samples_per_pixel) == digest &&
-               header.state.samples != header.part;
+        if (render_digest(header.key, header.samples_per_pixel) != digest ||
+            header.part_name != part_name(shard_of(command)))
+            return Left::other;
+        return header.state.samples == header.part ? Left::whole : Left::unfinished;
     } catch (const InputError&) {
-        return false;
+        return Left::other;
     }
 }
 
@@ -64,13 +70,19 @@ void check_outputs(const RenderCommand& command) {
                                         command.force));
 }
 
-Existing check_left_over(const RenderCommand& command, const std::string& digest) {
+std::optional<Existing> check_left_over(const RenderCommand& command, const std::string& digest) {
     if (command.force) return Existing::replace;
     if (!exists(command.output)) return Existing::keep;
-    if (!is_left_by(command.output, writes_film(command), digest))
-        throw InputError(command.output + ": exists, and is not what this render left when it was "
-                                          "stopped; give --force to replace it");
-    return Existing::replace;
+    switch (left_by(command, digest)) {
+    case Left::unfinished:
+        return Existing::replace;
+    case Left::whole:
+        return std::nullopt;
+    case Left::other:
+        break;
+    }
+    throw InputError(command.output + ": exists, and is not what this render left when it was "
+                                      "stopped; give --force to replace it");
 }
 
 std::vector<std::pair<std::string, MetadataValue>>

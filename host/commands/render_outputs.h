@@ -16,9 +16,10 @@ bool writes_film(const RenderCommand& command);
 void check_outputs(const RenderCommand& command);
 
 /// Whether the output that is there, if there is one, may be replaced by that of the render of this
-/// digest: by --force, or because it is what such a render left when it was stopped. Throws
+/// digest: by --force, or because it is what such a render left when it was stopped. Nothing where
+/// a render that goes on finds its own output, whole: there is nothing to be done. Throws
 /// InputError for another.
-Existing check_left_over(const RenderCommand& command, const std::string& digest);
+std::optional<Existing> check_left_over(const RenderCommand& command, const std::string& digest);
 
 /// What the header of a picture says of its render.
 std::vector<std::pair<std::string, MetadataValue>>

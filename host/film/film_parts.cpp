@@ -67,6 +67,17 @@ std::string list(std::vector<std::string> names) {
                        more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
+/// Of a part that has samples of one before it.
+[[noreturn]] void refuse_double(const std::deque<FilmFile>& parts, const FilmFile& part) {
+    const auto other = std::find_if(parts.begin(), parts.end(), [&](const FilmFile& p) {
+        return !(p.header().state.samples & part.header().state.samples).empty();
+    });
+    if (other->name() == part.name()) throw InputError(part.name() + ": is given twice");
+    const std::string& name = part.header().part_name;
+    throw InputError(fmt::format("{}: has samples that {} has, too{}", part.name(), other->name(),
+                                 name.empty() ? "" : " (part " + name + ")"));
+}
+
 } // namespace
 
 void check_parts(const std::deque<FilmFile>& parts) {
@@ -74,14 +85,7 @@ void check_parts(const std::deque<FilmFile>& parts) {
     for (const FilmFile& part : parts) {
         check_same(parts.front(), part);
         const SampleSet& samples = part.header().state.samples;
-        if (!(all & samples).empty())
-            for (const FilmFile& other : parts)
-                if (!(other.header().state.samples & samples).empty())
-                    throw InputError(fmt::format("{}: has samples that {} has, too{}", part.name(),
-                                                 other.name(),
-                                                 part.header().part_name.empty()
-                                                     ? ""
-                                                     : " (part " + part.header().part_name + ")"));
+        if (!(all & samples).empty()) refuse_double(parts, part);
         all = all | samples;
     }
 }
@@ -115,7 +119,9 @@ std::string missing_text(const std::deque<FilmFile>& parts, const FilmHeader& ad
     std::string text = fmt::format("{:.2f} % of the samples are missing",
                                    100.0 * static_cast<double>(sample_count(missing)) /
                                        static_cast<double>(sample_count(added.all())));
-    if (!names.empty()) text += ": of parts " + list(names) + " there is no file";
+    if (!names.empty())
+        text += fmt::format(": there is no file of part{} {}", names.size() > 1 ? "s" : "",
+                            list(names));
     if (!stopped.empty())
         text += fmt::format("{} not finished: {}", names.empty() ? ":" : ";", list(stopped));
     return text;

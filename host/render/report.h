@@ -35,6 +35,7 @@ struct RenderReport {
     std::vector<StageReport> stages;
     std::uint64_t paths = 0, camera_rays = 0, bounce_rays = 0, shadow_rays = 0,
                   non_finite_samples = 0;
+    std::uint64_t taken_up_paths = 0, taken_up_rays = 0; ///< of those, by renders before this one
     std::vector<FaultCount> faults;     ///< of those samples; kinds that there are none of left out
     std::vector<BadSample> bad_samples; ///< a few of them, in the order of samples and pixels
     std::vector<Misfits> misfits;       ///< values that the written file does not hold as they are

@@ -48,6 +48,8 @@ void Session::plan() {
 
 void Session::take_up(const FilmSums& film, const FilmState& state) {
     check_goes_on(state.samples, opened_.samples_per_pixel);
+    if (!(state.samples - all_).empty())
+        throw InputError("the film to go on from has samples of another part (--shard)");
     opened_.engine->fill_film(film);
     taken_up_ = state;
     plan();
@@ -73,6 +75,11 @@ void Session::step(const std::function<bool()>& stop) {
     seconds_ += seconds_since(start);
 }
 
+double Session::share() const {
+    const std::int64_t all = sample_count(all_);
+    return all == 0 ? 1.0 : 1.0 - static_cast<double>(left()) / static_cast<double>(all);
+}
+
 FilmState Session::state() {
     FilmState state = taken_up_;
     state.add({groups_->done() | rest_->done(), opened_.engine->counts(), {}});
@@ -86,12 +93,16 @@ RenderReport Session::report() {
     report.render_seconds = seconds_;
     opened_.engine->report(report);
     add_state(state(), report);
+    report.taken_up_paths = taken_up_.counts[statistic_camera_rays];
+    report.taken_up_rays = report.taken_up_paths + taken_up_.counts[statistic_bounce_rays] +
+                           taken_up_.counts[statistic_shadow_rays];
     const auto rate = [&](std::uint64_t count) {
         return seconds_ > 0 ? static_cast<double>(count) / seconds_ / 1e6 : 0.0;
     };
     if (started_)
-        progress_.finish(fmt::format("{:.2f} Mpaths/s, {:.2f} Mrays/s", rate(report.paths),
-                                     rate(report.rays())));
+        progress_.finish(fmt::format("{:.2f} Mpaths/s, {:.2f} Mrays/s",
+                                     rate(report.paths - report.taken_up_paths),
+                                     rate(report.rays() - report.taken_up_rays)));
     return report;
 }
 

@@ -23,8 +23,8 @@ public:
     /// Of the samples of `shard`. `progress` must outlive it.
     Session(OpenedRender opened, const Shard& shard, Progress& progress);
 
-    /// Puts a film of the same content on this one, which must be empty. Samples that are not of
-    /// this session count as well. Throws as check_goes_on does.
+    /// Puts a film of the same content on this one, which must be empty. Throws as check_goes_on
+    /// does, and for samples that are not of this session.
     void take_up(const FilmSums& film, const FilmState& state);
 
     /// Renders until `stop` says so, which is asked after every wave, or all whole groups of
@@ -37,6 +37,8 @@ public:
     /// can go on from it.
     bool in_whole_groups() const { return !has_rest_; }
 
+    /// Of the session's samples those that are on the film, 0 to 1.
+    double share() const;
     /// Whether all whole groups are on the film.
     bool groups_finished() const { return groups_->left() == 0; }
 

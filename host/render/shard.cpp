@@ -55,6 +55,12 @@ SampleSet runs_of(const Shard& shard, int blocks, int samples) {
 
 } // namespace
 
+std::string part_name(const Shard& shard) {
+    if (shard.is_all()) return "";
+    return fmt::format("{}/{} by {}", shard.number, shard.count,
+                       sharding_names[static_cast<std::size_t>(shard.by)]);
+}
+
 Shard parse_shard(const std::string& text) {
     const std::size_t slash = text.find('/');
     const auto part = [&](std::size_t from, std::size_t count) {

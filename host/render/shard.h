@@ -21,8 +21,12 @@ struct Shard {
     int number = 1, count = 1;
     Sharding by = Sharding::blocks;
 
+    // Of a render that is not shared out.
     bool is_all() const { return count == 1; }
 };
+
+/// "K/N by blocks"; of all nothing.
+std::string part_name(const Shard& shard);
 
 /// K/N. Throws InputError for a text that is no such part.
 Shard parse_shard(const std::string& text);

@@ -1,5 +1,5 @@
 // The device's compiler lays out every struct that crosses the bus as the host's does.
-#include "kernels/shared/types.h"
+#include "kernels/device/buffers.h"
 #include "tests/device/kernels/layouts.h"
 #include "tests/support/device.h"
 
