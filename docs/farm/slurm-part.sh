@@ -15,7 +15,7 @@ shift 3
 part=$SLURM_ARRAY_TASK_ID starts=$((${SLURM_RESTART_COUNT:-0} + 1))
 most_starts=5 # of a task that is killed or fails on its machine; one that is stopped starts as often as it takes
 
-# Slurm sends TERM to every process of a job that it preempts or cancels: parhelion has it already (a second one would end
+# Slurm sends TERM to every process of a job that it preempts or cancels: parhelion has it already (a further one would end
 # it at once), and whether the job comes back is decided. USR1 comes to this shell alone, a minute before the time limit.
 heard='' ended_by_slurm=''
 trap 'heard=1; kill -TERM "$render"' USR1

@@ -89,6 +89,7 @@ int run_merge(const MergeCommand& command) {
         throw InputError(fmt::format("{} (--partial makes a picture of what there is)", missing));
     if (!missing.empty()) progress.note("note: " + missing);
     std::vector<const FilmSums*> films;
+    films.reserve(parts.size());
     for (const FilmFile& part : parts)
         films.push_back(&part);
     progress.start("merging");

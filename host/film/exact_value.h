@@ -45,7 +45,7 @@ inline TwoDoubles exact_value(const std::uint32_t* digits, std::size_t stride) {
         lower <<= spare, exponent -= spare;
     }
     constexpr std::uint64_t below = 1u << 11;
-    const double high = static_cast<double>(upper / below) * 2048.0;
+    const double high = static_cast<double>(upper - upper % below);
     const double low = static_cast<double>(upper % below) + static_cast<double>(lower) * 0x1p-64;
     const double unit = sign * std::ldexp(1.0, exponent);
     return quick_sum(high * unit, low * unit);
