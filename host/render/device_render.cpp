@@ -73,6 +73,7 @@ public:
     template<class Word>
     static std::vector<std::span<Word>> values(const std::deque<BufferView<Word>>& views) {
         std::vector<std::span<Word>> all;
+        all.reserve(views.size());
         for (const BufferView<Word>& view : views)
             all.push_back(view.values());
         return all;

@@ -22,6 +22,7 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
 void WaveStream::bind(const SceneBuffers& scene, const std::vector<Buffer<cl_uint>>& films,
                       const RenderParams& params) {
     films_.clear();
+    films_.reserve(films.size());
     for (const Buffer<cl_uint>& film : films)
         films_.push_back(film.handle());
     for (std::size_t stage = 0; stage < stage_count; stage++) {

@@ -86,6 +86,7 @@ void render_part(const Scene& scene, const RenderOptions& options, const Shard& 
 Image added_up(const std::deque<FilmFile>& parts) {
     check_parts(parts);
     std::vector<const FilmSums*> films;
+    films.reserve(parts.size());
     for (const FilmFile& part : parts)
         films.push_back(&part);
     const FilmHeader header = added_header(parts);

@@ -28,7 +28,7 @@ class KnownFilm : public FilmSums {
 public:
     explicit KnownFilm(unsigned seed) {
         Random random(seed);
-        for (auto& of_pixel : digits) {
+        for (auto& of_pixel : digits_) {
             if (random.bits() % 3 == 0) continue; // nothing there
             ExactSum sum;
             for (int k = 0; k < 5; k++)
@@ -41,12 +41,12 @@ public:
         SumRow own(width);
         for (int x = 0; x < width; x++)
             for (int k = 0; k < EXACT_WORDS; k++)
-                own.digit(k)[x] = digits[(channel * height + y) * width + x][k];
+                own.digit(k)[x] = digits_[(channel * height + y) * width + x][k];
         add_digits(row, 0, width, [&](int k) { return own.digit(k).data(); });
     }
 
 private:
-    std::vector<std::array<std::uint32_t, EXACT_WORDS>> digits{width * height * channels};
+    std::vector<std::array<std::uint32_t, EXACT_WORDS>> digits_{width * height * channels};
 };
 
 double value(const FilmSums& film, int channel, int y, int x) {
@@ -153,7 +153,7 @@ TEST_CASE("Film files: parts that are double, missing or of another render are n
     const KnownFilm film(1);
     const std::string base =
         std::filesystem::temp_directory_path() / fmt::format("parts-{}-", getpid());
-    auto part = [&](const std::string& name, FilmHeader header) {
+    auto part = [&](const std::string& name, const FilmHeader& header) {
         write_film(base + name, header, film, Existing::replace);
         return base + name;
     };

@@ -20,6 +20,7 @@ bool run(WaveSchedule& schedule, int threads, Seen& seen, const WaveLimits& limi
     std::atomic<bool> shared = false, too_large = false;
     std::mutex mutex;
     std::vector<std::jthread> running;
+    running.reserve(threads);
     for (int t = 0; t < threads; t++)
         running.emplace_back([&] {
             while (auto wave = schedule.take()) {
