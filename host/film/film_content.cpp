@@ -2,6 +2,7 @@
 #include "host/film/film_content.h"
 
 #include "host/error.h"
+#include "host/film/whole_number.h"
 
 #include <nlohmann/json.hpp>
 
@@ -33,14 +34,14 @@ std::vector<AovLayer> layers_of(const nlohmann::json& json,
         while (kind < static_cast<int>(N) && kinds[kind].name != name)
             kind++;
         if (kind == static_cast<int>(N)) throw InputError("there is no layer of kind " + name);
-        layers.push_back({of_layer.at("name"), kind, of_layer.at("channel")});
+        layers.push_back({of_layer.at("name"), kind, whole_number(of_layer.at("channel"))});
     }
     return layers;
 }
 
 template<class Enum>
 Enum number_of(const nlohmann::json& json, const char* name, Enum last) {
-    const int value = json.at(name);
+    const int value = whole_number(json.at(name));
     if (value < 0 || value > static_cast<int>(last))
         throw InputError(std::string(name) + " is out of range");
     return static_cast<Enum>(value);
@@ -91,16 +92,16 @@ void check(const FilmContent& c) {
 
 FilmContent film_content(const nlohmann::json& json) {
     FilmContent c;
-    c.film.width = json.at("size").at(0), c.film.height = json.at("size").at(1);
-    const nlohmann::json& crop = json.at("crop");
-    c.film.crop_x = crop.at(0), c.film.crop_y = crop.at(1);
-    c.film.crop_width = crop.at(2), c.film.crop_height = crop.at(3);
+    const nlohmann::json &size = json.at("size"), &crop = json.at("crop");
+    c.film.width = whole_number(size.at(0)), c.film.height = whole_number(size.at(1));
+    c.film.crop_x = whole_number(crop.at(0)), c.film.crop_y = whole_number(crop.at(1));
+    c.film.crop_width = whole_number(crop.at(2)), c.film.crop_height = whole_number(crop.at(3));
     c.film.pixel_format = number_of(json, "pixel_format", PixelFormat::xyza);
     c.film.component_format = number_of(json, "component_format", ComponentFormat::uint32);
     c.kind = number_of(json, "integrator", IntegratorKind::aov);
     c.second_moment = json.at("second_moment");
     c.aovs.layers = layers_of(json.at("layers"), aov_kinds);
-    c.aovs.channels = json.at("layer_channels");
+    c.aovs.channels = whole_number(json.at("layer_channels"));
     c.aovs.film_layers = layers_of(json.at("film_layers"), film_aov_kinds);
     const nlohmann::json& frame = json.at("frame");
     c.frame = {vector_of(frame.at("camera")), vector_of(frame.at("shift")), frame.at("scale"),

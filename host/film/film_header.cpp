@@ -2,6 +2,7 @@
 #include "host/film/film_header.h"
 
 #include "host/error.h"
+#include "host/film/whole_number.h"
 
 #include <nlohmann/json.hpp>
 
@@ -36,8 +37,11 @@ void require(bool holds, const char* what) {
 SampleSet samples_of(const nlohmann::json& json, const SampleSet& all) {
     SampleSet samples;
     for (const nlohmann::json& r : json) {
-        samples.push_back({r.at(0), r.at(1), r.at(2), r.at(3)});
-        require(r.at(0) < r.at(1) && r.at(2) < r.at(3), "a range of samples is empty");
+        samples.push_back({whole_number(r.at(0)), whole_number(r.at(1)), whole_number(r.at(2)),
+                           whole_number(r.at(3))});
+        const SampleRange& range = samples.back();
+        require(range.first_block < range.end_block && range.first < range.end,
+                "a range of samples is empty");
     }
     require((samples | samples) == samples && (samples - all).empty(),
             "its samples are none of its render");
@@ -47,9 +51,15 @@ SampleSet samples_of(const nlohmann::json& json, const SampleSet& all) {
 FilmState state_of(const nlohmann::json& json, const SampleSet& all) {
     FilmState state;
     state.samples = samples_of(json.at("samples"), all);
-    state.counts = json.at("counts").get<TraceCounts>();
+    for (std::size_t i = 0; i < state.counts.size(); i++) {
+        const nlohmann::json& count = json.at("counts").at(i);
+        require(count.is_number_unsigned(), "a count is none");
+        state.counts[i] = count.get<std::uint64_t>();
+    }
     for (const nlohmann::json& b : json.at("bad_samples")) {
-        state.bad_samples.push_back({b.at(0), b.at(1), b.at(2), b.at(3), b.at(4)});
+        state.bad_samples.push_back({whole_number(b.at(0)), whole_number(b.at(1)),
+                                     whole_number(b.at(2)), whole_number(b.at(3)),
+                                     whole_number(b.at(4))});
         const int fault = state.bad_samples.back().fault;
         require(fault >= 0 && fault < fault_count, "there is no such fault");
     }
@@ -87,7 +97,8 @@ FilmHeader film_header(const nlohmann::json& json) {
     FilmHeader h;
     h.key = json.at("key").get<RenderKey>();
     h.content = film_content(json.at("content"));
-    h.blocks = json.at("blocks"), h.samples_per_pixel = json.at("samples_per_pixel");
+    h.blocks = whole_number(json.at("blocks"));
+    h.samples_per_pixel = whole_number(json.at("samples_per_pixel"));
     require(h.blocks > 0 && h.samples_per_pixel > 0, "it is of no samples");
     h.part_name = json.at("part_name");
     h.part = samples_of(json.at("part"), h.all());
