@@ -1,36 +1,28 @@
 // `parhelion merge`: films of parts of a render to the picture of the whole.
 #include "host/commands/merge.h"
 
-#include "host/commands/misfit_warning.h"
 #include "host/commands/render_domains.h"
 #include "host/commands/render_outputs.h"
 #include "host/error.h"
-#include "host/film/film_image.h"
 #include "host/film/film_parts.h"
 #include "host/image/distinct_files.h"
-#include "host/image/write_image.h"
 #include "host/progress.h"
-#include "host/streams.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <memory>
 
 namespace parhelion {
 namespace {
 
-bool is_film(const std::string& file) { return std::filesystem::path(file).extension() == ".film"; }
-
 void check_files(const MergeCommand& command) {
-    if (is_film(command.output))
+    if (is_film_file(command.output))
         check_output_file(command.output, command.force);
     else
         check_output(command.output, command.force);
     if (command.exposure &&
-        (is_film(command.output) || image_format(command.output) != ImageFormat::png))
+        (is_film_file(command.output) || image_format(command.output) != ImageFormat::png))
         throw InputError("--exposure: is for .png previews; an .exr holds linear values");
     std::vector<UsedFile> inputs;
     for (const std::string& part : command.parts)
@@ -58,19 +50,13 @@ std::deque<FilmFile> opened(const MergeCommand& command, Progress& progress) {
 }
 
 void write_merged(const MergeCommand& command, const FilmHeader& header, const FilmSums& sums) {
-    if (is_film(command.output)) {
+    if (is_film_file(command.output)) {
         write_film(command.output, header, sums, existing_files(command.force));
         return;
     }
-    Image image = film_image(sums, header.content);
-    image.metadata = header.metadata;
-    add_unfinished(header, image);
-    const Film& film = header.content.film;
-    RenderReport report;
-    report.misfits = write_image(
-        command.output, image,
-        {command.exposure.value_or(0.0), {film.component_format, existing_files(command.force)}});
-    if (!report.misfits.empty()) say(misfit_warning(command.output, film, report));
+    // What does not fit is told.
+    static_cast<void>(write_picture(command.output, header, sums, command.exposure.value_or(0.0),
+                                    existing_files(command.force)));
 }
 
 } // namespace
@@ -78,14 +64,14 @@ void write_merged(const MergeCommand& command, const FilmHeader& header, const F
 int run_merge(const MergeCommand& command) {
     check_files(command);
     allow_many_files();
-    Progress progress(Progress::mode_of(command.progress, command.quiet));
+    Progress progress = Progress::standard(command.quiet);
     progress.start("opening", fmt::format("{} film{}", command.parts.size(),
                                           command.parts.size() == 1 ? "" : "s"));
     const std::deque<FilmFile> parts = opened(command, progress);
     const FilmHeader header = added_header(parts);
     progress.finish("");
     const std::string missing = missing_text(parts, header);
-    if (!missing.empty() && !command.partial && !is_film(command.output))
+    if (!missing.empty() && !command.partial && !is_film_file(command.output))
         throw InputError(fmt::format("{} (--partial makes a picture of what there is)", missing));
     if (!missing.empty()) progress.note("note: " + missing);
     std::vector<const FilmSums*> films;

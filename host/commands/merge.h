@@ -14,7 +14,6 @@ struct MergeCommand {
     std::string output = "out.exr";
     std::optional<double> exposure;
     bool partial = false, force = false, quiet = false;
-    std::string progress = "auto";
 };
 
 /// The exit code. Throws InputError where the films are not the parts of one render, naming which

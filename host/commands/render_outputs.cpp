@@ -1,9 +1,13 @@
 // What a render writes at its end, and what may be there before.
 #include "host/commands/render_outputs.h"
 
+#include "host/commands/misfit_warning.h"
 #include "host/commands/render_key.h"
 #include "host/error.h"
+#include "host/film/film_image.h"
 #include "host/image/exr.h"
+#include "host/image/write_image.h"
+#include "host/streams.h"
 #include "parhelion_version.h"
 
 #include <fmt/format.h>
@@ -26,7 +30,7 @@ bool exists(const std::string& file) {
 bool goes_on(const RenderCommand& command) { return !command.resume.empty() || command.goes_on; }
 
 void check_film_output(const std::string& file, bool force) {
-    if (std::filesystem::path(file).extension() != ".film")
+    if (!is_film_file(file))
         throw InputError(file + ": a part of a render (--shard) is a film, whose file must end in "
                                 ".film; `parhelion merge` makes a picture of all parts");
     check_output_file(file, force);
@@ -51,6 +55,17 @@ Left left_by(const RenderCommand& command, const std::string& digest) {
     } catch (const InputError&) {
         return Left::other;
     }
+}
+
+/// Of a film whose samples are not all there: that, for whoever finds the picture.
+void add_unfinished(const FilmHeader& header, Image& image) {
+    const SampleSet all = header.all();
+    if (header.state.samples == all) return;
+    const double mean = static_cast<double>(sample_count(header.state.samples)) / header.blocks;
+    image.metadata.emplace_back(unfinished_attribute,
+                                fmt::format("{:.2f} of {} samples a pixel, at least {}", mean,
+                                            header.samples_per_pixel,
+                                            fewest_samples(header.state.samples, header.blocks)));
 }
 
 } // namespace
@@ -100,14 +115,20 @@ metadata_of(const Scene& scene, const RenderReport& report, const std::string& d
     return metadata;
 }
 
-void add_unfinished(const FilmHeader& header, Image& image) {
-    const SampleSet all = header.all();
-    if (header.state.samples == all) return;
-    const double mean = static_cast<double>(sample_count(header.state.samples)) / header.blocks;
-    image.metadata.emplace_back(unfinished_attribute,
-                                fmt::format("{:.2f} of {} samples a pixel, at least {}", mean,
-                                            header.samples_per_pixel,
-                                            fewest_samples(header.state.samples, header.blocks)));
+bool is_film_file(const std::string& file) {
+    return std::filesystem::path(file).extension() == ".film";
+}
+
+std::vector<Misfits> write_picture(const std::string& file, const FilmHeader& header,
+                                   const FilmSums& sums, double exposure, Existing existing) {
+    Image image = film_image(sums, header.content);
+    image.metadata = header.metadata;
+    add_unfinished(header, image);
+    const Film& film = header.content.film;
+    RenderReport report;
+    report.misfits = write_image(file, image, {exposure, {film.component_format, existing}});
+    if (!report.misfits.empty()) say(misfit_warning(file, film, report));
+    return report.misfits;
 }
 
 } // namespace parhelion

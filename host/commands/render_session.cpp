@@ -3,9 +3,7 @@
 
 #include "host/commands/bad_sample_warning.h"
 #include "host/commands/duration.h"
-#include "host/commands/misfit_warning.h"
 #include "host/commands/render_outputs.h"
-#include "host/image/write_image.h"
 #include "host/json_text.h"
 #include "host/render/checkpoints.h"
 #include "host/stop_signals.h"
@@ -38,20 +36,6 @@ std::string run(const RenderCommand& command, Clock::time_point started, Session
     return session.finished() ? "" : reason;
 }
 
-/// Returns whether the file holds every value of the picture.
-bool write_picture(const RenderCommand& command, const FilmHeader& header, Session& session,
-                   Existing existing, RenderReport& report) {
-    Image image = session.image();
-    image.metadata = header.metadata;
-    add_unfinished(header, image);
-    const Film& film = header.content.film;
-    report.misfits = write_image(
-        command.output, image, {command.exposure.value_or(0.0), {film.component_format, existing}});
-    if (report.misfits.empty()) return true;
-    say(misfit_warning(command.output, film, report));
-    return false;
-}
-
 std::string stopped_text(const RenderCommand& command, const FilmHeader& header,
                          const std::string& reason) {
     const double share = static_cast<double>(sample_count(header.state.samples & header.part)) /
@@ -74,7 +58,9 @@ bool write_outputs(const RenderCommand& command, const FilmHeader& header, Sessi
     if (writes_film(command))
         write_film(command.output, header, *session.film(), existing);
     else
-        good &= write_picture(command, header, session, existing, report);
+        report.misfits = write_picture(command.output, header, *session.film(),
+                                       command.exposure.value_or(0.0), existing);
+    good &= report.misfits.empty();
     report.write_seconds = seconds_since(start);
     report.host_peak_bytes = peak_host_bytes();
     if (!command.stats_file.empty())

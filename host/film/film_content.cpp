@@ -47,6 +47,24 @@ Enum number_of(const nlohmann::json& json, const char* name, Enum last) {
     return static_cast<Enum>(value);
 }
 
+/// Of layers, with room for more than there are.
+constexpr int most_channels = 64;
+
+/// What a film may be made by.
+void check(const FilmContent& c) {
+    const Film& f = c.film;
+    const auto inside = [](int from, int count, int all) {
+        return from >= 0 && count > 0 && all > 0 && all <= 65536 && from <= all - count;
+    };
+    bool good = inside(f.crop_x, f.crop_width, f.width) &&
+                inside(f.crop_y, f.crop_height, f.height) && c.aovs.channels >= 0 &&
+                c.aovs.channels <= most_channels;
+    for (const AovLayer& layer : c.aovs.layers)
+        good = good && layer.channel >= 0 &&
+               layer.channel <= c.aovs.channels - aov_kinds[layer.kind].channels;
+    if (!good) throw InputError("its picture cannot be");
+}
+
 } // namespace
 
 FilmContent film_content(const Scene& scene, const AovPlan& aovs, const SceneFrame& frame) {
@@ -70,24 +88,6 @@ nlohmann::json to_json(const FilmContent& c) {
               {"scale", c.frame.scale},
               {"start", c.frame.start},
               {"radiance_unit", c.frame.radiance_unit}}}};
-}
-
-/// Of layers, with room for more than there are.
-constexpr int most_channels = 64;
-
-/// What a film may be made by.
-void check(const FilmContent& c) {
-    const Film& f = c.film;
-    const auto inside = [](int from, int count, int all) {
-        return from >= 0 && count > 0 && all > 0 && all <= 65536 && from <= all - count;
-    };
-    bool good = inside(f.crop_x, f.crop_width, f.width) &&
-                inside(f.crop_y, f.crop_height, f.height) && c.aovs.channels >= 0 &&
-                c.aovs.channels <= most_channels;
-    for (const AovLayer& layer : c.aovs.layers)
-        good = good && layer.channel >= 0 &&
-               layer.channel <= c.aovs.channels - aov_kinds[layer.kind].channels;
-    if (!good) throw InputError("its picture cannot be");
 }
 
 FilmContent film_content(const nlohmann::json& json) {

@@ -22,8 +22,6 @@ struct FilmLayout {
     int blocks() const { return static_cast<int>(window.tiles()); }
     int bands() const { return (blocks() + band_blocks - 1) / band_blocks; }
     int channels() const { return FILM_CHANNELS(aov_channels, moments, spreads); }
-    int square_channel() const { return SQUARE_CHANNEL(aov_channels); }
-    int spread_channel() const { return SPREAD_CHANNEL(aov_channels, moments); }
     /// Of what samples gather before they are added up. Those that are splatted know their offsets
     /// in their pixels.
     int result_channels() const { return RESULT_CHANNELS(aov_channels, window.reach > 0); }

@@ -82,9 +82,10 @@ double Session::share() const {
 
 FilmState Session::state() {
     FilmState state = taken_up_;
-    state.add({groups_->done() | rest_->done(), opened_.engine->counts(), {}});
-    if (non_finite_samples(opened_.engine->counts()) > 0)
-        state.add({{}, {}, opened_.engine->bad_samples()});
+    const TraceCounts counts = opened_.engine->counts();
+    state.add({groups_->done() | rest_->done(), counts,
+               non_finite_samples(counts) > 0 ? opened_.engine->bad_samples()
+                                              : std::vector<BadSample>{}});
     return state;
 }
 
