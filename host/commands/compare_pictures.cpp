@@ -86,7 +86,7 @@ void write_pictures(const CompareOptions& options, const Image& image, const Ima
     for (const auto& [file, drawn] : pictures) {
         // Values that are not finite are the same in both images, and the report counts them.
         static_cast<void>(
-            write_image(file, drawn, {.exr = {.existing = existing_files(options.force)}}));
+            write_image(file, WholeImage(drawn), {.exr = {.existing = existing_files(options.force)}}));
     }
 }
 

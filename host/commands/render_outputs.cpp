@@ -121,9 +121,9 @@ bool is_film_file(const std::string& file) {
 
 std::vector<Misfits> write_picture(const std::string& file, const FilmHeader& header,
                                    const FilmSums& sums, double exposure, Existing existing) {
-    Image image = film_image(sums, header.content);
-    image.metadata = header.metadata;
-    add_unfinished(header, image);
+    FilmPicture image(sums, header.content);
+    image.frame().metadata = header.metadata;
+    add_unfinished(header, image.frame());
     const Film& film = header.content.film;
     RenderReport report;
     report.misfits = write_image(file, image, {exposure, {film.component_format, existing}});

@@ -103,13 +103,13 @@ double main_layer_unit(IntegratorKind kind, const SceneFrame& frame) {
     }
 }
 
-Image film_image(const FilmSums& sums, const FilmContent& content) {
+Image film_image(const FilmSums& sums, const FilmContent& content, int first_row, int rows) {
     Image image;
     const Film& film = content.film;
-    image.width = film.crop_width, image.height = film.crop_height;
+    image.width = film.crop_width, image.height = rows;
     image.full_width = film.width, image.full_height = film.height;
-    image.offset_x = film.crop_x, image.offset_y = film.crop_y;
-    const FilmReader reader(sums, film.crop_width, film.crop_height);
+    image.offset_x = film.crop_x, image.offset_y = film.crop_y + first_row;
+    const FilmReader reader(sums, film.crop_width, first_row, rows);
     const double unit = main_layer_unit(content.kind, content.frame);
     add_main_layer(reader, film.pixel_format, unit, image);
     for (const AovLayer& layer : content.aovs.layers)
@@ -123,6 +123,11 @@ Image film_image(const FilmSums& sums, const FilmContent& content) {
                         scaled(reader.means(content.square_channel() + c), unit * unit));
     }
     return image;
+}
+
+FilmPicture::FilmPicture(const FilmSums& sums, const FilmContent& content)
+    : sums_(sums), content_(content), frame_(film_image(sums, content, 0, 0)) {
+    frame_.height = content.film.crop_height;
 }
 
 } // namespace parhelion

@@ -23,8 +23,9 @@ std::vector<TwoDoubles> values(const SumRow& row) {
 
 } // namespace
 
-FilmReader::FilmReader(const FilmSums& sums, int width, int height)
-    : sums_(sums), width_(width), height_(height), weights_(width_ * height_) {
+FilmReader::FilmReader(const FilmSums& sums, int width, int first_row, int height)
+    : sums_(sums), width_(width), first_row_(first_row), height_(height),
+      weights_(width_ * height_) {
     each_row(std::array{static_cast<int>(result_weight)}, [&](const auto& of, std::size_t first) {
         for (std::size_t x = 0; x < width_; x++)
             weights_[first + x] = of[0][x].high;
@@ -38,7 +39,7 @@ void FilmReader::each_row(const std::array<int, N>& channels, F f) const {
         SumRow row(static_cast<int>(width_));
         for (std::size_t i = 0; i < N; i++) {
             row.clear();
-            sums_.add_row(channels[i], static_cast<int>(y), row);
+            sums_.add_row(channels[i], static_cast<int>(first_row_ + y), row);
             of_channels[i] = values(row);
         }
         f(of_channels, y * width_);

@@ -8,11 +8,11 @@
 
 namespace parhelion {
 
-/// The film's channels over the pixels of a crop, row by row.
+/// The film's channels over some rows of a crop, row by row.
 class FilmReader {
 public:
-    /// `sums` must outlive the reader, and be of so many pixels.
-    FilmReader(const FilmSums& sums, int width, int height);
+    /// `height` rows from `first_row` on. `sums` must outlive the reader, and be that wide.
+    FilmReader(const FilmSums& sums, int width, int first_row, int height);
 
     /// Sum over weight. 0 where there is no sample, or where filter weights cancel exactly.
     std::vector<float> means(int channel) const;
@@ -35,7 +35,7 @@ private:
     void each_row(const std::array<int, N>& channels, F f) const;
 
     const FilmSums& sums_;
-    std::size_t width_, height_;
+    std::size_t width_, first_row_, height_;
     std::vector<double> weights_;
 };
 

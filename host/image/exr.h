@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/image/component_format.h"
-#include "host/image/image.h"
+#include "host/image/image_rows.h"
 #include "host/image/misfits.h"
 #include "host/image/output.h"
 
@@ -41,7 +41,11 @@ struct ExrOptions {
 /// rounded, or too small for the format, are not counted. An int64 beyond 32 bits is stored as its
 /// decimal digits, since EXR has no wider integer. Throws OutputError where the folder or the disk
 /// refuses.
-[[nodiscard]] std::vector<Misfits> write_exr(const std::string& file, const Image& image,
+[[nodiscard]] std::vector<Misfits> write_exr(const std::string& file, const ImageRows& image,
                                              const ExrOptions& options = {});
+[[nodiscard]] inline std::vector<Misfits> write_exr(const std::string& file, const Image& image,
+                                                    const ExrOptions& options = {}) {
+    return write_exr(file, WholeImage(image), options);
+}
 
 } // namespace parhelion

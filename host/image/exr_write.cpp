@@ -26,8 +26,6 @@ namespace parhelion {
 
 namespace {
 
-constexpr int band_rows = 256; ///< rows converted at a time: ZIP's blocks of 16 for all threads
-
 Imf::PixelType pixel_type(ComponentFormat component) {
     switch (component) {
     case ComponentFormat::float16:
@@ -46,9 +44,6 @@ void check_image(const Image& image) {
     if (image.width < 1 || image.height < 1 || image.full_width < 1 || image.full_height < 1)
         throw std::invalid_argument("an image needs at least one pixel");
     if (image.channels.empty()) throw std::invalid_argument("an image needs at least one channel");
-    for (const Channel& channel : image.channels)
-        if (channel.values.size() != image.pixel_count())
-            throw std::invalid_argument("channel " + channel.name + " has a wrong length");
 }
 
 void insert_metadata(Imf::Header& header, const std::string& name, const MetadataValue& value) {
@@ -106,43 +101,46 @@ bool store(Imf::PixelType type, float value, char* out) {
     return fits;
 }
 
-/// Converts rows of a channel; notes the values that are not finite or that the type cannot hold.
-void convert_rows(const Image& image, std::size_t channel, int first, int rows, Imf::PixelType type,
-                  char* out, Misfits& misfits) {
-    const float* source =
-        image.channels[channel].values.data() + static_cast<std::size_t>(first) * image.width;
-    const std::size_t count = static_cast<std::size_t>(rows) * image.width;
+/// Converts a channel of a band of rows; notes the values that are not finite or that the type
+/// cannot hold.
+void convert(const Image& band, std::size_t channel, Imf::PixelType type, char* out,
+             Misfits& misfits) {
+    const std::vector<float>& source = band.channels[channel].values;
     const std::size_t bytes = byte_size(type);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < source.size(); ++i) {
         const bool fits = store(type, source[i], out + i * bytes);
         const bool finite = std::isfinite(source[i]);
         if (fits && finite) continue;
-        const int row = static_cast<int>(i / image.width);
-        misfits.add(image.offset_x + static_cast<int>(i % image.width),
-                    image.offset_y + first + row, source[i], finite);
+        misfits.add(band.offset_x + static_cast<int>(i % band.width),
+                    band.offset_y + static_cast<int>(i / band.width), source[i], finite);
     }
 }
 
 /// Converts and writes all rows; returns what did not fit, an entry a channel.
-std::vector<Misfits> write_rows(Imf::OutputFile& output, const Image& image, Imf::PixelType type) {
+std::vector<Misfits> write_rows(Imf::OutputFile& output, const ImageRows& image,
+                                Imf::PixelType type) {
+    const Image& frame = image.frame();
     const std::size_t bytes = byte_size(type);
-    const std::size_t row_bytes = bytes * image.width;
-    std::vector<std::vector<char>> bands(image.channels.size(),
-                                         std::vector<char>(row_bytes * band_rows));
+    const std::size_t row_bytes = bytes * frame.width;
+    const int band_rows = image.band_rows();
+    std::vector<std::vector<char>> converted(frame.channels.size(),
+                                             std::vector<char>(row_bytes * band_rows));
     std::vector<Misfits> misfits;
-    for (const Channel& channel : image.channels)
+    misfits.reserve(frame.channels.size());
+    for (const Channel& channel : frame.channels)
         misfits.push_back({.channel = channel.name});
-    for (int first = 0; first < image.height; first += band_rows) {
-        const int rows = std::min(band_rows, image.height - first);
-        Imf::FrameBuffer frame;
-        for (std::size_t c = 0; c < image.channels.size(); ++c) {
-            convert_rows(image, c, first, rows, type, bands[c].data(), misfits[c]);
-            frame.insert(image.channels[c].name,
-                         Imf::Slice::Make(type, bands[c].data(),
-                                          Imath::V2i(image.offset_x, image.offset_y + first),
-                                          image.width, rows, bytes, row_bytes));
+    for (int first = 0; first < frame.height; first += band_rows) {
+        const int rows = std::min(band_rows, frame.height - first);
+        const Image band = image.rows(first, rows);
+        Imf::FrameBuffer buffer;
+        for (std::size_t c = 0; c < frame.channels.size(); ++c) {
+            convert(band, c, type, converted[c].data(), misfits[c]);
+            buffer.insert(frame.channels[c].name,
+                          Imf::Slice::Make(type, converted[c].data(),
+                                           Imath::V2i(band.offset_x, band.offset_y), band.width,
+                                           rows, bytes, row_bytes));
         }
-        output.setFrameBuffer(frame);
+        output.setFrameBuffer(buffer);
         output.writePixels(rows);
     }
     std::erase_if(misfits, [](const Misfits& channel) { return channel.count() == 0; });
@@ -151,8 +149,8 @@ std::vector<Misfits> write_rows(Imf::OutputFile& output, const Image& image, Imf
 
 /// `file`: its name in messages.
 std::vector<Misfits> write_stream(const std::string& temporary, const std::string& file,
-                                  const Image& image, Imf::PixelType type) {
-    const Imf::Header header = make_header(image, type);
+                                  const ImageRows& image, Imf::PixelType type) {
+    const Imf::Header header = make_header(image.frame(), type);
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (!stream) throw std::runtime_error(std::strerror(errno));
     std::vector<Misfits> misfits;
@@ -171,9 +169,9 @@ std::vector<Misfits> write_stream(const std::string& temporary, const std::strin
 
 } // namespace
 
-std::vector<Misfits> write_exr(const std::string& file, const Image& image,
+std::vector<Misfits> write_exr(const std::string& file, const ImageRows& image,
                                const ExrOptions& options) {
-    check_image(image);
+    check_image(image.frame());
     PendingFile pending(file, options.existing);
     std::vector<Misfits> misfits;
     try {

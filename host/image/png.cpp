@@ -7,33 +7,40 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 
 namespace parhelion {
 
 namespace {
 
+/// Which channels of an image its preview shows.
 struct PreviewSource {
-    std::array<const Channel*, 3> planes{};
+    std::array<std::size_t, 3> planes{};
     bool is_xyz = false;
+
+    bool is_grey() const { return planes[0] == planes[1]; }
 };
 
-PreviewSource preview_source(const std::string& file, const Image& image) {
-    const auto plane = [&](const char* name) { return find_channel(image, name); };
-    const auto complete = [](const PreviewSource& s) {
-        return s.planes[0] && s.planes[1] && s.planes[2];
+PreviewSource preview_source(const std::string& file, const Image& frame) {
+    const auto planes = [&](const std::array<const char*, 3>& names) {
+        std::array<std::size_t, 3> found{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Channel* channel = find_channel(frame, names[i]);
+            if (!channel) return std::optional<std::array<std::size_t, 3>>();
+            found[i] = static_cast<std::size_t>(channel - frame.channels.data());
+        }
+        return std::optional(found);
     };
-    const PreviewSource rgb{{plane("R"), plane("G"), plane("B")}, false};
-    if (complete(rgb)) return rgb;
-    const PreviewSource xyz{{plane("X"), plane("Y"), plane("Z")}, true};
-    if (complete(xyz)) return xyz;
-    const PreviewSource grey{{plane("Y"), plane("Y"), plane("Y")}, false};
-    if (complete(grey)) return grey;
+    if (const auto rgb = planes({"R", "G", "B"})) return {*rgb, false};
+    if (const auto xyz = planes({"X", "Y", "Z"})) return {*xyz, true};
+    if (const auto grey = planes({"Y", "Y", "Y"})) return {*grey, false};
     throw InputError(file + ": a PNG preview needs channels R G B, X Y Z or Y");
 }
 
@@ -42,40 +49,33 @@ std::uint8_t to_byte(double linear) {
         std::lround(255.0 * srgb_encode(std::clamp(linear, 0.0, 1.0))));
 }
 
-/// Interleaved bytes.
-std::vector<std::uint8_t> tone_map(const PreviewSource& source, std::size_t count,
-                                   double exposure) {
+/// Appends interleaved bytes.
+void tone_map(const PreviewSource& source, const Image& band, double exposure,
+              std::vector<std::uint8_t>& bytes) {
     const double scale = std::exp2(exposure);
-    std::vector<std::uint8_t> bytes(3 * count);
-    for (std::size_t i = 0; i < count; ++i) {
-        std::array<double, 3> rgb{source.planes[0]->values[i], source.planes[1]->values[i],
-                                  source.planes[2]->values[i]};
+    const auto value = [&](int c, std::size_t i) {
+        return static_cast<double>(band.channels[source.planes[c]].values[i]);
+    };
+    for (std::size_t i = 0; i < band.pixel_count(); ++i) {
+        std::array<double, 3> rgb{value(0, i), value(1, i), value(2, i)};
         if (!std::isfinite(rgb[0]) || !std::isfinite(rgb[1]) || !std::isfinite(rgb[2])) {
             rgb = {1.0, 0.0, 1.0};
         } else {
             if (source.is_xyz) rgb = transform(xyz_to_srgb, rgb);
-            for (double& value : rgb)
-                value *= scale;
+            for (double& linear : rgb)
+                linear *= scale;
         }
-        for (int c = 0; c < 3; ++c)
-            bytes[3 * i + c] = to_byte(rgb[c]);
+        for (const double linear : rgb)
+            bytes.push_back(to_byte(linear));
     }
-    return bytes;
 }
 
-std::vector<Misfits> misfits_of(const PreviewSource& source, const Image& image) {
-    std::vector<Misfits> all;
-    for (std::size_t plane = 0; plane < source.planes.size(); ++plane) {
-        const Channel& channel = *source.planes[plane];
-        if (plane > 0 && &channel == source.planes[0]) break; // grey
-        Misfits misfits{.channel = channel.name};
-        for (int y = 0; y < image.height; ++y)
-            for (int x = 0; x < image.width; ++x)
-                if (const float value = channel.values[image.index(x, y)]; !std::isfinite(value))
-                    misfits.add(image.offset_x + x, image.offset_y + y, value, false);
-        if (misfits.count() > 0) all.push_back(misfits);
-    }
-    return all;
+/// Notes what is not finite in a plane of a band.
+void add_misfits(const Channel& channel, const Image& band, Misfits& misfits) {
+    for (int y = 0; y < band.height; ++y)
+        for (int x = 0; x < band.width; ++x)
+            if (const float value = channel.values[band.index(x, y)]; !std::isfinite(value))
+                misfits.add(band.offset_x + x, band.offset_y + y, value, false);
 }
 
 void write_bytes(const std::string& file, const Image& image,
@@ -99,12 +99,25 @@ void write_bytes(const std::string& file, const Image& image,
 
 } // namespace
 
-std::vector<Misfits> write_png(const std::string& file, const Image& image, double exposure,
+std::vector<Misfits> write_png(const std::string& file, const ImageRows& image, double exposure,
                                Existing existing) {
     if (!std::isfinite(exposure)) throw std::invalid_argument("exposure must be finite");
-    const PreviewSource source = preview_source(file, image);
-    write_bytes(file, image, tone_map(source, image.pixel_count(), exposure), existing);
-    return misfits_of(source, image);
+    const Image& frame = image.frame();
+    const PreviewSource source = preview_source(file, frame);
+    std::vector<Misfits> misfits;
+    for (std::size_t i = 0; i < (source.is_grey() ? 1u : 3u); ++i)
+        misfits.push_back({.channel = frame.channels[source.planes[i]].name});
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(3 * frame.pixel_count());
+    for (int first = 0; first < frame.height; first += image.band_rows()) {
+        const Image band = image.rows(first, std::min(image.band_rows(), frame.height - first));
+        tone_map(source, band, exposure, bytes);
+        for (std::size_t i = 0; i < misfits.size(); ++i)
+            add_misfits(band.channels[source.planes[i]], band, misfits[i]);
+    }
+    write_bytes(file, frame, bytes, existing);
+    std::erase_if(misfits, [](const Misfits& plane) { return plane.count() == 0; });
+    return misfits;
 }
 
 } // namespace parhelion

@@ -1,7 +1,7 @@
 // PNG previews of linear images.
 #pragma once
 
-#include "host/image/image.h"
+#include "host/image/image_rows.h"
 #include "host/image/misfits.h"
 #include "host/image/output.h"
 
@@ -18,8 +18,13 @@ namespace parhelion {
 /// layer that has some, how many values are not finite; what is cut off is no misfit. Throws
 /// OutputError where the folder or the disk refuses, InputError where the image has none of these
 /// channels.
-[[nodiscard]] std::vector<Misfits> write_png(const std::string& file, const Image& image,
+[[nodiscard]] std::vector<Misfits> write_png(const std::string& file, const ImageRows& image,
                                              double exposure = 0.0,
                                              Existing existing = Existing::replace);
+[[nodiscard]] inline std::vector<Misfits> write_png(const std::string& file, const Image& image,
+                                                    double exposure = 0.0,
+                                                    Existing existing = Existing::replace) {
+    return write_png(file, WholeImage(image), exposure, existing);
+}
 
 } // namespace parhelion

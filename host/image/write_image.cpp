@@ -5,7 +5,7 @@
 
 namespace parhelion {
 
-std::vector<Misfits> write_image(const std::string& file, const Image& image,
+std::vector<Misfits> write_image(const std::string& file, const ImageRows& image,
                                  const WriteOptions& options) {
     return image_format(file) == ImageFormat::png
                ? write_png(file, image, options.exposure, options.exr.existing)

@@ -12,7 +12,7 @@ struct WriteOptions {
 
 /// As write_png or write_exr does, returning what they return. Throws what they throw, and
 /// InputError for a name that asks for neither.
-[[nodiscard]] std::vector<Misfits> write_image(const std::string& file, const Image& image,
+[[nodiscard]] std::vector<Misfits> write_image(const std::string& file, const ImageRows& image,
                                                const WriteOptions& options);
 
 } // namespace parhelion
