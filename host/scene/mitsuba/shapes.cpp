@@ -1,4 +1,5 @@
 // The shape plugins.
+#include "host/scene/meshes/kept_meshes.h"
 #include "host/scene/meshes/mesh_data.h"
 #include "host/scene/meshes/mesh_obj.h"
 #include "host/scene/meshes/mesh_ply.h"
@@ -44,41 +45,51 @@ Geometry read_mesh(const ShapeInput& in, MeshData data, const MeshOptions& optio
     return make_mesh(std::move(data), options, in.p.location(), in.notes);
 }
 
-/// load(path, place) of the file that the shape names.
+/// load(path, place) of the file that the shape names, or what was kept of it. `how`: it is read.
 template<class Load>
-auto load_file(const ShapeInput& in, const Load& load) {
+SerializedMesh load_file(const ShapeInput& in, const std::string& how, const Load& load) {
     const std::string name = in.p.required_text("filename");
     in.p.check();
     const SourceLocation place = in.p.location_of("filename");
-    return named_at(place, [&] { return load(in.document.files.file(name, place), place); });
+    return named_at(place, [&] {
+        const auto path = in.document.files.file(name, place);
+        const auto read = [&] { return SerializedMesh{load(path, place)}; };
+        KeptMeshes* const kept = in.document.meshes;
+        return kept ? kept->mesh(path, how, read) : read();
+    });
+}
+
+std::string with_flag(const char* plugin, bool flag) {
+    return std::string(plugin) + (flag ? " flipped" : "");
 }
 
 Geometry read_obj(const ShapeInput& in) {
     const bool flip_v = in.p.boolean("flip_tex_coords", true);
     const MeshOptions options = read_mesh_options(in.p);
-    return read_mesh(
-        in,
-        load_file(in, [&](const auto& path,
-                          const SourceLocation& place) { return load_obj(path, flip_v, place); }),
-        options);
+    SerializedMesh file =
+        load_file(in, with_flag("obj", flip_v), [&](const auto& path, const SourceLocation& place) {
+            return load_obj(path, flip_v, place);
+        });
+    return read_mesh(in, std::move(file.mesh), options);
 }
 
 Geometry read_ply(const ShapeInput& in) {
     const bool flip_v = in.p.boolean("flip_tex_coords", false);
     const MeshOptions options = read_mesh_options(in.p);
-    return read_mesh(
-        in,
-        load_file(in, [&](const auto& path,
-                          const SourceLocation& place) { return load_ply(path, flip_v, place); }),
-        options);
+    SerializedMesh file =
+        load_file(in, with_flag("ply", flip_v), [&](const auto& path, const SourceLocation& place) {
+            return load_ply(path, flip_v, place);
+        });
+    return read_mesh(in, std::move(file.mesh), options);
 }
 
 Geometry read_serialized(const ShapeInput& in) {
     const std::int64_t index = in.p.integer("shape_index", 0);
     MeshOptions options = read_mesh_options(in.p);
-    SerializedMesh file = load_file(in, [&](const auto& path, const SourceLocation& place) {
-        return load_serialized(path, index, place);
-    });
+    SerializedMesh file = load_file(in, "serialized " + std::to_string(index),
+                                    [&](const auto& path, const SourceLocation& place) {
+                                        return load_serialized(path, index, place);
+                                    });
     options.face_normals |= file.face_normals;
     return read_mesh(in, std::move(file.mesh), options);
 }
