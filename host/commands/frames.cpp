@@ -52,8 +52,8 @@ Frames::Frames(const RenderCommand& command) : command_(command) {
     for (const Axis& axis : axes_) {
         count_ *= axis.values.size();
         if (count_ > most_renders)
-            throw InputError(fmt::format("scenes, sweeps and frames make more than {} renders "
-                                         "(accepted: so many)",
+            throw InputError(fmt::format("scenes, sweeps and frames make too many renders "
+                                         "(accepted: up to {})",
                                          most_renders));
     }
 }

@@ -28,10 +28,12 @@ Piece named_value(const std::string& option, std::string_view pattern, const Nam
             (!best || value.first.size() > best->first.size()))
             best = &value;
     }
-    if (!best)
-        throw InputError(
-            fmt::format("{} {}: there is no value for {} (accepted: {}; \\$ writes a $)", option,
-                        in_quotes(pattern), in_quotes(pattern.substr(0, 20)), names));
+    if (!best) {
+        const std::size_t end = pattern.find_first_not_of(
+            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_", 1);
+        throw InputError(fmt::format("{}: there is no value for {} (accepted: {}; \\$ writes a $)",
+                                     option, in_quotes(pattern.substr(0, end)), names));
+    }
     return {1 + best->first.size(), best->second};
 }
 

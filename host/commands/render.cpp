@@ -6,6 +6,7 @@
 #include "host/commands/compile.h"
 #include "host/commands/frame_checks.h"
 #include "host/commands/render_frames.h"
+#include "host/commands/render_key.h"
 #include "host/commands/render_outputs.h"
 #include "host/commands/render_session.h"
 #include "host/commands/shared_work.h"
@@ -42,9 +43,7 @@ void limit_threads(int threads) {
     if (threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
 }
 
-Scene load(const RenderCommand& command, SharedWork& work) {
-    Progress& progress = work.progress;
-    progress.start("loading", command.scene_file);
+Scene read(const RenderCommand& command, SharedWork& work) {
     work.meshes.next_scene();
     LoadOptions options = work.messages.guarded(load_options(command));
     options.meshes = work.several ? &work.meshes : nullptr;
@@ -52,12 +51,29 @@ Scene load(const RenderCommand& command, SharedWork& work) {
     apply_overrides(command, scene);
     check_distinct(outputs_of(command), files_of(scene));
     note_lost_layers(command, scene);
+    return scene;
+}
+
+/// The same, told.
+Scene load(const RenderCommand& command, SharedWork& work) {
+    Progress& progress = work.progress;
+    progress.start("loading", command.scene_file);
+    Scene scene = read(command, work);
     progress.finish(fmt::format("{} shapes, {}x{} pixels, {} spp", scene.shapes.size(),
                                 scene.film.crop_width, scene.film.crop_height,
                                 scene.sampler.samples_per_pixel));
     for (const std::string& note : scene.notes)
         progress.note("note: " + note);
     return scene;
+}
+
+RenderKey key_of(const RenderCommand& command, const Scene& scene, SharedWork& work) {
+    return render_key(command, scene, &work.digests);
+}
+
+std::optional<Existing> existing_of(const RenderCommand& command, const Scene& scene,
+                                    const RenderKey& key) {
+    return check_left_over(command, render_digest(key, scene.sampler.samples_per_pixel));
 }
 
 RenderDevice& device_of(const RenderCommand& command, SharedWork& work) {
@@ -114,18 +130,19 @@ FilmHeader header_of(const RenderCommand& command, const Scene& scene, const Ses
 
 } // namespace
 
-LoadedRender load_render(const RenderCommand& command, SharedWork& work) {
-    LoadedRender loaded{load(command, work), {}, {}};
-    loaded.key = render_key(command, loaded.scene, &work.digests);
-    loaded.existing =
-        check_left_over(command, render_digest(loaded.key, loaded.scene.sampler.samples_per_pixel));
-    return loaded;
+bool is_done(const RenderCommand& command, SharedWork& work) {
+    std::error_code error;
+    if (!std::filesystem::exists(command.output, error)) return false;
+    const Scene scene = read(command, work);
+    return !existing_of(command, scene, key_of(command, scene, work)).has_value();
 }
 
 ExitCode render_one(const RenderCommand& command, SharedWork& work) {
     const auto began = work.device ? Clock::now() : work.started;
     Progress& progress = work.progress;
-    const auto [scene, key, existing] = load_render(command, work);
+    const Scene scene = load(command, work);
+    const RenderKey key = key_of(command, scene, work);
+    const std::optional<Existing> existing = existing_of(command, scene, key);
     if (!existing) {
         progress.note(command.output + " is there already, whole");
         return ExitCode::ok;

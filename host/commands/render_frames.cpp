@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace parhelion {
 namespace {
@@ -25,31 +24,25 @@ InputError of_render(const InputError& error, const Frames& frames, std::size_t 
     return InputError(lines);
 }
 
-/// Whether its output is there, whole. Throws InputError for one of another render.
-bool is_done(const RenderCommand& command, SharedWork& work) {
-    std::error_code error;
-    return std::filesystem::exists(command.output, error) &&
-           !load_render(command, work).existing.has_value();
-}
-
-/// All outputs that are there are looked at before anything is rendered. A scene that cannot be
-/// used is said when its turn comes.
+/// All outputs that are there are looked at before anything is rendered.
 std::vector<std::size_t> left_to_render(const Frames& frames, SharedWork& work) {
     std::vector<std::size_t> left;
     left.reserve(frames.count());
     const RenderCommand first = frames.command(0);
     const bool may_be_there = first.skip_existing || (first.goes_on && !first.force);
+    if (may_be_there) work.progress.start("looking at what is there");
     for (std::size_t i = 0; i < frames.count(); i++) {
-        work.progress.start_part(static_cast<int>(i + 1), static_cast<int>(frames.count()));
         try {
             if (!may_be_there || !is_done(frames.command(i), work)) left.push_back(i);
         } catch (const InputError& error) {
             throw of_render(error, frames, i);
         }
+        if (may_be_there)
+            work.progress.update(static_cast<double>(i + 1) / static_cast<double>(frames.count()));
     }
-    if (left.size() < frames.count())
-        work.progress.note(fmt::format("{} of {} are there already, whole",
-                                       frames.count() - left.size(), frames.count()));
+    if (may_be_there)
+        work.progress.finish(fmt::format("{} of {} renders are whole", frames.count() - left.size(),
+                                         frames.count()));
     return left;
 }
 

@@ -2,11 +2,9 @@
 #pragma once
 
 #include "host/clock.h"
-#include "host/commands/render_key.h"
 #include "host/commands/render_messages.h"
 #include "host/error.h"
 #include "host/file_digests.h"
-#include "host/image/output.h"
 #include "host/progress.h"
 #include "host/scene/meshes/kept_meshes.h"
 #include "host/waves/render_device.h"
@@ -24,15 +22,9 @@ struct SharedWork {
     FileDigests digests{};
 };
 
-/// What is left of one: nothing to be done, or a scene to be rendered.
-struct LoadedRender {
-    Scene scene;
-    RenderKey key;
-    std::optional<Existing> existing; ///< of the output; nothing: it is there, whole
-};
-
-/// Throws InputError for a scene that cannot be used, or an output of another render.
-LoadedRender load_render(const RenderCommand& command, SharedWork& work);
+/// Whether its output is there already, whole. Throws InputError for a scene that cannot be used,
+/// or an output of another render.
+bool is_done(const RenderCommand& command, SharedWork& work);
 
 /// Renders and writes. Throws InputError, DeviceError, OutputError.
 ExitCode render_one(const RenderCommand& command, SharedWork& work);
