@@ -1,4 +1,4 @@
-// Mesh files that several scenes of one process name: read once.
+// Meshes of files that several scenes of one process name: read and made once.
 #pragma once
 
 #include "host/file_stamp.h"
@@ -9,15 +9,27 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace parhelion {
 
+/// A mesh of the scene, and what was noted when it was made.
+struct MadeMesh {
+    Mesh mesh;
+    std::vector<std::string> notes;
+};
+
+/// All that a mesh depends on besides the bytes of its file, as text: how it is read, where it is
+/// put, and the place that notes name.
+std::string mesh_key(const std::string& how, const MeshOptions& options,
+                     const SourceLocation& place);
+
 class KeptMeshes {
 public:
-    /// The mesh of a file that is read in the way that `how` names ("ply", with its options): what
-    /// `read` makes of it, or made of it before where the file has not changed since.
-    SerializedMesh mesh(const std::filesystem::path& file, const std::string& how,
-                        const std::function<SerializedMesh()>& read);
+    /// What `make` makes of the file, or made of it before, for the same key, where the file has
+    /// not changed since. Throws what that throws.
+    MadeMesh mesh(const std::filesystem::path& file, const std::string& key,
+                  const std::function<MadeMesh()>& make);
 
     /// Another scene begins: what the last one had no use for goes, so that a mesh a frame takes no
     /// more memory than one.
@@ -26,10 +38,10 @@ public:
 private:
     struct Kept {
         FileStamp stamp;
-        std::shared_ptr<const SerializedMesh> mesh;
+        std::shared_ptr<const MadeMesh> mesh;
         bool used = true; ///< by this scene
     };
-    std::map<std::pair<std::string, std::string>, Kept> meshes_; ///< by file and how
+    std::map<std::pair<std::string, std::string>, Kept> meshes_; ///< by file and key
 };
 
 } // namespace parhelion
