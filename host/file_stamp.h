@@ -10,7 +10,7 @@
 namespace parhelion {
 
 /// Which file, how long, and when it was last written to: two that are the same are of the same
-/// content, unless someone sets times by hand or writes twice within a tick of the system's clock.
+/// content, unless someone sets times by hand.
 struct FileStamp {
     dev_t device = 0;
     ino_t number = 0;
@@ -19,7 +19,8 @@ struct FileStamp {
     bool operator==(const FileStamp&) const = default;
 };
 
-/// Nothing where there is no such file.
+/// Nothing where there is no such file, and of one that has been written to just now: it could be
+/// again within the same tick of the file system's clock.
 std::optional<FileStamp> file_stamp(const std::filesystem::path& file);
 
 } // namespace parhelion
