@@ -138,7 +138,7 @@ bool is_done(const RenderCommand& command, SharedWork& work) {
 }
 
 ExitCode render_one(const RenderCommand& command, SharedWork& work) {
-    const auto began = work.device ? Clock::now() : work.started;
+    const auto began = work.several ? Clock::now() : work.started;
     Progress& progress = work.progress;
     const Scene scene = load(command, work);
     const RenderKey key = key_of(command, scene, work);

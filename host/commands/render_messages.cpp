@@ -31,6 +31,7 @@ LoadOptions RenderMessages::guarded(LoadOptions options) const {
 }
 
 void RenderMessages::check_distinct_from(const std::vector<UsedFile>& files) const {
+    if (log_file_.empty()) return;
     try {
         check_distinct({{"--log", log_file_}}, files);
     } catch (const InputError&) {
