@@ -35,7 +35,8 @@ std::vector<std::size_t> left_to_render(const Frames& frames, SharedWork& work) 
         try {
             if (!may_be_there || !is_done(frames.command(i), work)) left.push_back(i);
         } catch (const InputError& error) {
-            throw of_render(error, frames, i);
+            if (!first.keep_going) throw of_render(error, frames, i);
+            left.push_back(i); // told when its turn comes
         }
         if (may_be_there)
             work.progress.update(static_cast<double>(i + 1) / static_cast<double>(frames.count()));
@@ -70,6 +71,16 @@ ExitCode render_or_tell(const Frames& frames, std::size_t number, SharedWork& wo
     }
 }
 
+/// `reason`: of a stop between two renders; else that has been said.
+std::string stopped_text(const Frames& frames, std::size_t number, std::size_t whole,
+                         const std::string& reason) {
+    const bool has_checkpoint = !frames.command(number).checkpoint.empty();
+    return fmt::format("{}{} of {} renders are whole; the same command with --skip-existing{} goes "
+                       "on",
+                       reason.empty() ? "" : fmt::format("stopped by {}; ", reason), whole,
+                       frames.count(), has_checkpoint ? " --continue" : "");
+}
+
 } // namespace
 
 ExitCode render_frames(const Frames& frames, SharedWork& work) {
@@ -85,10 +96,7 @@ ExitCode render_frames(const Frames& frames, SharedWork& work) {
         if (reason.empty()) code = render_or_tell(frames, number, work);
         worst = std::max(worst, code);
         if (code == ExitCode::stopped) {
-            say(fmt::format("{}{} of {} renders are whole; the same command with --skip-existing "
-                            "goes on",
-                            reason.empty() ? "" : fmt::format("stopped by {}; ", reason), whole,
-                            frames.count()));
+            say(stopped_text(frames, number, whole, reason));
             return code;
         }
         whole += code == ExitCode::bad_input ? 0 : 1;
