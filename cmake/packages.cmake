@@ -8,7 +8,7 @@ install(DIRECTORY scenes/ DESTINATION share/parhelion/scenes OPTIONAL)
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION share/doc/parhelion)
 install(FILES LICENSE DESTINATION share/doc/parhelion RENAME copyright) # where Debian looks
 install(FILES benchmarks/README.md DESTINATION share/doc/parhelion/benchmarks)
-install(FILES docs/accuracy.md docs/farm.md docs/parameters.md DESTINATION share/doc/parhelion/docs)
+install(FILES docs/accuracy.md docs/farm.md docs/frames.md docs/parameters.md DESTINATION share/doc/parhelion/docs)
 install(DIRECTORY docs/farm DESTINATION share/doc/parhelion/docs USE_SOURCE_PERMISSIONS) # scripts, to be run
 install(DIRECTORY docs/gallery docs/licences DESTINATION share/doc/parhelion/docs)
 

@@ -22,7 +22,7 @@ namespace parhelion {
       "approximated (info --check)")                                                               \
     X(bad_input, 2,                                                                                \
       "unusable input: a line for each problem says where and what is accepted; nothing is "       \
-      "written")                                                                                   \
+      "written, of several renders nothing but those before")                                      \
     X(device_failure, 3, "device failure, or out of memory")                                       \
     X(internal_failure, 4, "internal failure")                                                     \
     X(output_failure, 5,                                                                           \
@@ -30,7 +30,7 @@ namespace parhelion {
       "was made meanwhile (the image is kept under the name that is told)")                        \
     X(stopped, 99,                                                                                 \
       "stopped by a signal or by --time-limit; what there is of the image is written: go on with " \
-      "--resume")
+      "--resume, with several renders with --skip-existing")
 
 enum class ExitCode {
 #define X(name, number, meaning) name = number,

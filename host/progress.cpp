@@ -37,7 +37,8 @@ double Progress::seconds() const {
     return std::chrono::duration<double>(Clock::now() - started_).count();
 }
 
-void Progress::tell(const ProgressEvent& event) {
+void Progress::tell(ProgressEvent event) {
+    event.part = part_, event.parts = parts_;
     const Clock::time_point now = Clock::now();
     for (Place& place : places_) {
         if (event.state == State::update && now - place.written < place.writer->interval())
@@ -74,6 +75,8 @@ void Progress::finish(const std::string& remark) {
           .seconds = seconds()});
 }
 
-void Progress::note(const std::string& text) { tell({.state = State::note, .message = text}); }
+void Progress::note(const std::string& text) {
+    if (noted_.insert(text).second) tell({.state = State::note, .message = text});
+}
 
 } // namespace parhelion

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,8 @@ public:
     /// where they contradict each other.
     static Mode mode_of(const std::string& name, bool quiet);
 
+    /// What follows is of the `part`th of several renders, from 1.
+    void start_part(int part, int parts) { part_ = part, parts_ = parts; }
     /// A new phase begins, e.g. "loading", of `subject`.
     void start(const std::string& phase, const std::string& subject = "");
     /// `fraction` of the phase is done, in [0, 1], at so many paths a second. Cheap enough to call
@@ -36,7 +39,8 @@ public:
     void update(double fraction, std::optional<double> rate = {});
     /// The phase is over, with a closing remark (may be empty).
     void finish(const std::string& remark);
-    /// A line that is no phase: a note. Warnings are told when quiet, too (streams.h: say).
+    /// A line that is no phase: a note, the same one once. Warnings are told when quiet, too
+    /// (streams.h: say).
     void note(const std::string& text);
 
 private:
@@ -46,10 +50,12 @@ private:
         Clock::time_point written{};
     };
     double seconds() const;
-    void tell(const ProgressEvent& event);
+    void tell(ProgressEvent event);
 
     std::vector<Place> places_;
     std::string phase_, subject_;
+    std::set<std::string> noted_;
+    int part_ = 0, parts_ = 0;
     Clock::time_point started_{};
 };
 

@@ -24,8 +24,13 @@ std::string duration_text(double s) {
     return fmt::format("{:.1f} h", s / 3600.0);
 }
 
+/// "3/10 " of the third of ten renders.
+std::string part_text(const ProgressEvent& e) {
+    return e.parts > 0 ? fmt::format("{}/{} ", e.part, e.parts) : "";
+}
+
 std::string phase_text(const ProgressEvent& e) {
-    return e.subject.empty() ? e.phase : e.phase + " " + e.subject;
+    return part_text(e) + (e.subject.empty() ? e.phase : e.phase + " " + e.subject);
 }
 
 std::string update_text(const ProgressEvent& e) {
@@ -48,7 +53,7 @@ std::string text_of(const ProgressEvent& e) {
     case State::note:
         break;
     }
-    return e.message;
+    return part_text(e) + e.message;
 }
 
 class TerminalWriter : public ProgressWriter {
@@ -98,6 +103,7 @@ public:
         nlohmann::ordered_json json;
         if (!e.phase.empty()) json["phase"] = e.phase;
         json["state"] = state_name(e.state);
+        if (e.parts > 0) json["render"] = e.part, json["renders"] = e.parts;
         if (e.state != State::note) {
             json["fraction"] = e.fraction;
             json["seconds"] = e.seconds;

@@ -13,6 +13,7 @@ struct ProgressEvent {
     enum class State { start, update, finish, note };
 
     State state = State::note;
+    int part = 0, parts = 0;      ///< which of several renders; 0: there is one
     std::string phase{};          ///< "loading"; of a note: none
     std::string subject{};        ///< "scene.xml"; may be empty
     std::string message{};        ///< a note, or a closing remark

@@ -22,7 +22,7 @@ struct StopSignal {
 constexpr std::array stop_signals{StopSignal{SIGINT, "SIGINT"}, StopSignal{SIGTERM, "SIGTERM"}};
 
 // A process has one of each signal, and what handles it gets nothing but its number.
-std::atomic<bool> noting = false;
+std::atomic<bool> noting = false, between = false;
 std::atomic<int> noted = 0;
 std::atomic<std::int64_t> noted_at = 0; // milliseconds
 
@@ -34,6 +34,7 @@ std::int64_t milliseconds() {
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 #define NOTHING "stopped by a signal before anything was rendered"
+#define BETWEEN "stopped by a signal between two renders; those before are whole"
 #define AT_ONCE "stopped at once by a second signal"
 #define AS_TEXT(message) "parhelion: " message "\n"
 #define AS_JSON(message) "{\"state\":\"note\",\"message\":\"" message "\"}\n"
@@ -48,16 +49,16 @@ void handle(int number) {
     // Who sends a signal often sends it twice: to the process and to its group, say.
     if (noting && milliseconds() - noted_at < 1000) return;
     if (message_form() == MessageForm::json)
-        show(noting ? AS_JSON(AT_ONCE) : AS_JSON(NOTHING));
+        show(noting ? AS_JSON(AT_ONCE) : between ? AS_JSON(BETWEEN) : AS_JSON(NOTHING));
     else
-        show(noting ? AS_TEXT(AT_ONCE) : AS_TEXT(NOTHING));
+        show(noting ? AS_TEXT(AT_ONCE) : between ? AS_TEXT(BETWEEN) : AS_TEXT(NOTHING));
     _exit(static_cast<int>(ExitCode::stopped));
 }
 
 } // namespace
 
 void end_on_signals() {
-    noting = false, noted = 0;
+    noting = between = false, noted = 0;
     for (const StopSignal& signal : stop_signals) {
         struct sigaction before {};
         sigaction(signal.number, nullptr, &before);
@@ -67,6 +68,11 @@ void end_on_signals() {
         action.sa_flags = SA_RESTART;
         sigaction(signal.number, &action, nullptr);
     }
+}
+
+std::string end_on_signals_again() {
+    between = true, noting = false; // what comes from here on ends the process
+    return noted_signal();
 }
 
 void note_signals() { noting = true; }

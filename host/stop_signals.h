@@ -9,6 +9,10 @@ namespace parhelion {
 /// process at once with ExitCode::stopped and a line that says so: there is nothing to be kept.
 void end_on_signals();
 
+/// The same between two renders, the one before being whole. Returns the name of the one that was
+/// noted until now, or nothing.
+std::string end_on_signals_again();
+
 /// From now on the first of them is only noted, for whoever renders to ask; the next one, a
 /// second or more after it, ends the process at once. Files appear whole or not at all whenever
 /// that is.

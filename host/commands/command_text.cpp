@@ -2,6 +2,7 @@
 #include "host/commands/command_text.h"
 
 #include "host/commands/option_number.h"
+#include "host/commands/option_text.h"
 #include "host/safe_text.h"
 
 #include <fmt/format.h>
@@ -70,6 +71,7 @@ std::string quoted_for_shell(const std::string& text) {
 }
 
 std::string given_option(const Option& option) {
+    if (is_positional(option)) return "";
     return std::visit([&](const auto* target) { return given(option, *target); }, option.target);
 }
 

@@ -4,10 +4,12 @@
 #include "host/clock.h"
 #include "host/commands/cache_help.h"
 #include "host/commands/compile.h"
+#include "host/commands/frame_checks.h"
+#include "host/commands/render_frames.h"
 #include "host/commands/render_key.h"
-#include "host/commands/render_messages.h"
 #include "host/commands/render_outputs.h"
 #include "host/commands/render_session.h"
+#include "host/commands/shared_work.h"
 #include "host/error.h"
 #include "host/image/distinct_files.h"
 #include "host/image/output.h"
@@ -25,12 +27,6 @@
 namespace parhelion {
 namespace {
 
-std::vector<UsedFile> outputs_of(const RenderCommand& command) {
-    return {{"--output", command.output},
-            {"--stats", command.stats_file},
-            {"--checkpoint", command.checkpoint}};
-}
-
 /// What the scene asks for and a preview does not show.
 void note_lost_layers(const RenderCommand& command, Scene& scene) {
     if (writes_film(command) || image_format(command.output) != ImageFormat::png ||
@@ -47,12 +43,22 @@ void limit_threads(int threads) {
     if (threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
 }
 
-Scene load(const RenderCommand& command, const RenderMessages& messages, Progress& progress) {
-    progress.start("loading", command.scene_file);
-    Scene scene = load_scene(command.scene_file, messages.guarded(load_options(command)));
+Scene read(const RenderCommand& command, SharedWork& work) {
+    work.meshes.next_scene();
+    LoadOptions options = work.messages.guarded(load_options(command));
+    options.meshes = work.several ? &work.meshes : nullptr;
+    Scene scene = load_scene(command.scene_file, options);
     apply_overrides(command, scene);
     check_distinct(outputs_of(command), files_of(scene));
     note_lost_layers(command, scene);
+    return scene;
+}
+
+/// The same, told.
+Scene load(const RenderCommand& command, SharedWork& work) {
+    Progress& progress = work.progress;
+    progress.start("loading", command.scene_file);
+    Scene scene = read(command, work);
     progress.finish(fmt::format("{} shapes, {}x{} pixels, {} spp", scene.shapes.size(),
                                 scene.film.crop_width, scene.film.crop_height,
                                 scene.sampler.samples_per_pixel));
@@ -61,13 +67,28 @@ Scene load(const RenderCommand& command, const RenderMessages& messages, Progres
     return scene;
 }
 
-OpenedRender open_where_asked(const RenderCommand& command, const Scene& scene,
-                              Progress& progress) {
+RenderKey key_of(const RenderCommand& command, const Scene& scene, SharedWork& work) {
+    return render_key(command, scene, &work.digests);
+}
+
+std::optional<Existing> existing_of(const RenderCommand& command, const Scene& scene,
+                                    const RenderKey& key) {
+    return check_left_over(command, render_digest(key, scene.sampler.samples_per_pixel));
+}
+
+RenderDevice& device_of(const RenderCommand& command, SharedWork& work) {
+    if (!work.device) {
+        work.device = &open_to_the_end(choose_device(command.device));
+        work.device->compile_beside = compile_in_own_process(work.device->device);
+        work.device->keeps_scenes = work.several;
+    }
+    return *work.device;
+}
+
+OpenedRender open_where_asked(const RenderCommand& command, const Scene& scene, SharedWork& work) {
     if (in_double(command))
-        return open_on_host(scene, command.options, Precision::double_precision, progress);
-    RenderDevice& device = open_to_the_end(choose_device(command.device));
-    device.compile_beside = compile_in_own_process(device.device);
-    return open_on_device(scene, device, command.options, progress);
+        return open_on_host(scene, command.options, Precision::double_precision, work.progress);
+    return open_on_device(scene, device_of(command, work), command.options, work.progress);
 }
 
 /// The film to go on from, if there is one. Throws InputError where it is of another render.
@@ -109,31 +130,26 @@ FilmHeader header_of(const RenderCommand& command, const Scene& scene, const Ses
 
 } // namespace
 
-int run_render(const RenderCommand& command) {
-    const auto started = Clock::now();
-    const RenderMessages messages(command);
-    if (command.trace) return run_trace(command, messages);
-    end_on_signals();
-    check_outputs(command);
-    check_distinct(outputs_of(command), {{"the scene", command.scene_file}});
-    check_command(command);
-    limit_threads(command.threads);
-    std::optional<tbb::global_control> host_threads;
-    if (command.threads > 0)
-        host_threads.emplace(tbb::global_control::max_allowed_parallelism, command.threads);
-    Progress progress(Progress::mode_of(command.progress, command.quiet));
+bool is_done(const RenderCommand& command, SharedWork& work) {
+    std::error_code error;
+    if (!std::filesystem::exists(command.output, error)) return false;
+    const Scene scene = read(command, work);
+    return !existing_of(command, scene, key_of(command, scene, work)).has_value();
+}
 
-    const Scene scene = load(command, messages, progress);
-    const int samples = scene.sampler.samples_per_pixel;
-    const RenderKey key = render_key(command, scene);
-    const std::optional<Existing> existing = check_left_over(command, render_digest(key, samples));
+ExitCode render_one(const RenderCommand& command, SharedWork& work) {
+    const auto began = work.several ? Clock::now() : work.started;
+    Progress& progress = work.progress;
+    const Scene scene = load(command, work);
+    const RenderKey key = key_of(command, scene, work);
+    const std::optional<Existing> existing = existing_of(command, scene, key);
     if (!existing) {
         progress.note(command.output + " is there already, whole");
-        return static_cast<int>(ExitCode::ok);
+        return ExitCode::ok;
     }
-    const auto film = film_to_go_on_from(command, key, samples);
-    const double load_seconds = seconds_since(started);
-    OpenedRender opened = open_where_asked(command, scene, progress);
+    const auto film = film_to_go_on_from(command, key, scene.sampler.samples_per_pixel);
+    const double load_seconds = seconds_since(began);
+    OpenedRender opened = open_where_asked(command, scene, work);
     opened.report.load_seconds = load_seconds;
     opened.report.notes = scene.notes;
     opened.report.lenient = command.lenient;
@@ -145,10 +161,26 @@ int run_render(const RenderCommand& command) {
                                   100 * session.share()));
     }
     if (session.all().empty()) progress.note("note: there are no samples for this part");
-    const ExitCode code = render_session(command, started, session,
+    const ExitCode code = render_session(command, work.started, session,
                                          header_of(command, scene, session, key, begun), *existing);
     progress.note("wrote " + command.output);
-    return static_cast<int>(code);
+    return code;
+}
+
+int run_render(const RenderCommand& command) {
+    const auto started = Clock::now();
+    const RenderMessages messages(command);
+    const Frames frames(command);
+    if (command.trace) return run_trace(frames.only("--trace"), messages);
+    end_on_signals();
+    check_frames(frames, messages);
+    limit_threads(command.threads);
+    std::optional<tbb::global_control> host_threads;
+    if (command.threads > 0)
+        host_threads.emplace(tbb::global_control::max_allowed_parallelism, command.threads);
+    Progress progress(Progress::mode_of(command.progress, command.quiet));
+    SharedWork work{messages, progress, frames.several(), started};
+    return static_cast<int>(render_frames(frames, work));
 }
 
 Subcommand render_subcommand() {
@@ -165,6 +197,9 @@ Subcommand render_subcommand() {
             "  parhelion render scene.xml -o tile.exr --crop 0,0,64,64 -D light=bright --seed 7\n"
             "  parhelion render scene.xml -o long.exr --checkpoint long.film --continue\n"
             "  parhelion render scene.xml -o part3.film --shard 3/8\n"
+            "  parhelion render scene.xml --frames 1-100 -o 'frame-####.exr' --skip-existing\n"
+            "  parhelion render scene.xml -D angle=0:10:90 -o 'angle-$angle.exr'\n"
+            "  parhelion render a.xml b.xml -o '$scene.exr'\n"
             "  parhelion render scene.xml --pixel 12,34 --sample 5 --trace" +
             std::string(cache_help),
         .options = render_options(*c),

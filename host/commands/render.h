@@ -16,6 +16,7 @@ namespace parhelion {
 
 /// Everything the command line can say; what is absent is the scene's.
 struct RenderCommand {
+    std::vector<std::string> scenes; ///< as given; `scene_file` is that of one render
     std::string scene_file, output = "out.exr", stats_file, json_file, log_file, device;
     std::string progress = "auto";
     std::vector<std::string> definitions; ///< name=value
@@ -32,13 +33,15 @@ struct RenderCommand {
     bool next_event = true, energy_compensation = true;
     std::optional<std::string> shard, shard_by, time_limit; ///< K/N, what is shared out, duration
     std::string checkpoint, checkpoint_every = "60s", resume;
-    bool goes_on = false; ///< from the checkpoint's file, if it is there
+    bool goes_on = false;              ///< from the checkpoint's file, if it is there
+    std::optional<std::string> frames; ///< "1-10"
+    bool skip_existing = false, keep_going = false;
     bool force = false, quiet = false, strict = false, allow_outside = false, lenient = false;
     RenderOptions options;
 };
 
-/// Loads, renders and writes; the exit code. Throws InputError before any output exists, or
-/// DeviceError.
+/// Loads, renders and writes, each of the renders that it asks for; the exit code. Throws
+/// InputError before the output exists that it is about, or DeviceError.
 int run_render(const RenderCommand& command);
 
 /// What of it a scene is read by. Throws InputError for definitions that are none.
@@ -86,6 +89,9 @@ Subcommand render_subcommand();
 
 /// All options of `render`, which write to `command`.
 std::vector<Option> render_options(RenderCommand& command);
+
+/// Those of them that are about several renders.
+std::vector<Option> frame_options(RenderCommand& command);
 
 /// Those of them that have a say in which kernels an image needs.
 std::vector<Option> kernel_options(RenderCommand& command);

@@ -59,6 +59,9 @@ void check_command(const RenderCommand& command) {
         throw InputError("--exposure: is for .png previews; an .exr holds linear values");
     if (!command.aovs.empty() && png)
         throw InputError("--aov: a .png preview holds no layers; write an .exr");
+    if (command.skip_existing && png)
+        throw InputError("--skip-existing: a .png does not say which render it is of (accepted: an "
+                         ".exr, a .film)");
     check_split(command.options);
     Progress::mode_of(command.progress, command.quiet);
     in_double(command);

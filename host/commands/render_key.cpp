@@ -37,16 +37,21 @@ std::string value_of(const std::string& given, const std::string& name) {
 
 } // namespace
 
-RenderKey render_key(const RenderCommand& command, const Scene& scene) {
+RenderKey render_key(const RenderCommand& command, const Scene& scene, FileDigests* digests) {
+    FileDigests once;
+    if (!digests) digests = &once;
     RenderKey key{{"the program", fmt::format("{} {}", version_number, version_commit)},
                   {"its kernels", kernels_digest()},
-                  {"the scene", digest_of_file(scene.file)}};
+                  {"the scene", digests->of(scene.file)}};
     std::vector<std::string> files = scene.files;
     std::sort(files.begin(), files.end());
     files.erase(std::unique(files.begin(), files.end()), files.end());
     for (const std::string& file : files)
-        key.emplace_back("file " + name_in_folder(file, scene.file), digest_of_file(file));
+        key.emplace_back("file " + name_in_folder(file, scene.file), digests->of(file));
     RenderCommand asked = command;
+    asked.definitions.clear();
+    for (const auto& [name, value] : parse_definitions(command.definitions)) // in one order
+        asked.definitions.push_back(name + "=" + value);
     for (const Option& option : render_options(asked))
         if (option.rules.of_samples || option.rules.of_film)
             if (const std::string name = option_name(option); name != "--spp")

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/commands/render.h"
+#include "host/file_digests.h"
 #include "host/film/film_file.h"
 
 namespace parhelion {
@@ -10,7 +11,9 @@ namespace parhelion {
 /// This program and its kernels; the scene's file and all that it was read from, by content; the
 /// options that have a say in what is on the film, but for --spp. Reads the files once more; throws
 /// InputError where one cannot be read.
-RenderKey render_key(const RenderCommand& command, const Scene& scene);
+/// `digests`, where there is one, knows those of files that were read before.
+RenderKey render_key(const RenderCommand& command, const Scene& scene,
+                     FileDigests* digests = nullptr);
 
 /// One for a key and the samples of a pixel.
 std::string render_digest(const RenderKey& key, int samples_per_pixel);

@@ -13,21 +13,27 @@ RenderMessages::RenderMessages(const RenderCommand& command) : log_file_(command
     const Progress::Mode mode = Progress::mode_of(command.progress, command.quiet);
     tell_messages_as(mode == Progress::Mode::json ? MessageForm::json : MessageForm::text);
     if (log_file_.empty()) return;
-    check_distinct({{"--log", log_file_}}, {{"the scene", command.scene_file},
-                                            {"--output", command.output},
-                                            {"--stats", command.stats_file},
-                                            {"--json", command.json_file}});
+    std::vector<UsedFile> others{{"the scene", command.scene_file},
+                                 {"--output", command.output},
+                                 {"--stats", command.stats_file},
+                                 {"--json", command.json_file}};
+    for (const std::string& scene : command.scenes)
+        others.push_back({"the scene", scene});
+    check_distinct({{"--log", log_file_}}, others);
     open_message_log(log_file_);
 }
 
 LoadOptions RenderMessages::guarded(LoadOptions options) const {
-    options.check_file = [this](const std::string& file) { check_distinct_from(file); };
+    options.check_file = [this](const std::string& file) {
+        check_distinct_from({{"a file of the scene,", file}});
+    };
     return options;
 }
 
-void RenderMessages::check_distinct_from(const std::string& scene_file) const {
+void RenderMessages::check_distinct_from(const std::vector<UsedFile>& files) const {
+    if (log_file_.empty()) return;
     try {
-        check_distinct({{"--log", log_file_}}, {{"a file of the scene,", scene_file}});
+        check_distinct({{"--log", log_file_}}, files);
     } catch (const InputError&) {
         close_message_log();
         throw;

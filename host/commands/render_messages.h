@@ -15,9 +15,10 @@ public:
     /// The same, with which a scene that names the log is refused; no line is added to it then.
     LoadOptions guarded(LoadOptions options) const;
 
-private:
-    void check_distinct_from(const std::string& scene_file) const;
+    /// Throws InputError where the log is one of these files; no line is added to it then.
+    void check_distinct_from(const std::vector<UsedFile>& files) const;
 
+private:
     std::string log_file_;
 };
 

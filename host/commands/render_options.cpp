@@ -45,8 +45,8 @@ std::vector<Option> sampling_options(RenderCommand& c) {
 std::vector<Option> image_options(RenderCommand& c) {
     return {
         {"scene",
-         &c.scene_file,
-         "Scene file (Mitsuba 3 XML)",
+         &c.scenes,
+         "Scene file (Mitsuba 3 XML), or several",
          {.required = true, .kind = ValueKind::file}},
         {"-o,--output", &c.output, "Image to write, .exr or .png", {.kind = ValueKind::file}},
         {"--crop",
@@ -117,7 +117,8 @@ std::vector<Option> light_options(RenderCommand& c) {
          &c.aovs,
          "Layers beside the image, e.g. albedo,normals,depth",
          {.delimiter = ',', .words = aov_words()}},
-        {"-D,--define", &c.definitions, "name=value for the scene's $name (repeat for more)"},
+        {"-D,--define", &c.definitions,
+         "name=value for the scene's $name (repeat for more); of `render` also name=from:step:to"},
         {"--allow-outside", &c.allow_outside, "Let the scene name files outside its own folder"},
         {"--lenient", &c.lenient, lenient_help},
     });
@@ -239,8 +240,8 @@ std::vector<Option> kernel_options(RenderCommand& c) {
 
 std::vector<Option> render_options(RenderCommand& c) {
     std::vector<Option> options = sampling_options(c);
-    for (const std::vector<Option>& more :
-         {image_options(c), part_options(c), trace_options(c), kernel_options(c), pool_options(c)})
+    for (const std::vector<Option>& more : {image_options(c), frame_options(c), part_options(c),
+                                            trace_options(c), kernel_options(c), pool_options(c)})
         append(options, more);
     return options;
 }

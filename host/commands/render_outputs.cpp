@@ -73,20 +73,21 @@ void add_unfinished(const FilmHeader& header, Image& image) {
 bool writes_film(const RenderCommand& command) { return command.shard.has_value(); }
 
 void check_outputs(const RenderCommand& command) {
-    const bool may_exist = command.force || goes_on(command);
+    const bool may_exist = command.force || goes_on(command) || command.skip_existing;
+    const bool left = command.skip_existing && exists(command.output); // of a render like this one
     if (writes_film(command))
         check_film_output(command.output, may_exist);
     else
         check_output(command.output, may_exist);
-    if (!command.stats_file.empty()) check_output_file(command.stats_file, command.force);
+    if (!command.stats_file.empty()) check_output_file(command.stats_file, command.force || left);
     if (!command.checkpoint.empty())
         check_output_file(command.checkpoint,
                           may_exist && (command.goes_on || command.resume == command.checkpoint ||
-                                        command.force));
+                                        command.force || left));
 }
 
 std::optional<Existing> check_left_over(const RenderCommand& command, const std::string& digest) {
-    if (command.force) return Existing::replace;
+    if (command.force && !command.skip_existing) return Existing::replace;
     if (!exists(command.output)) return Existing::keep;
     switch (left_by(command, digest)) {
     case Left::unfinished:
@@ -96,8 +97,9 @@ std::optional<Existing> check_left_over(const RenderCommand& command, const std:
     case Left::other:
         break;
     }
-    throw InputError(command.output + ": exists, and is not what this render left when it was "
-                                      "stopped; give --force to replace it");
+    if (command.force) return Existing::replace;
+    throw InputError(command.output + ": exists, and is not what this render made or left when it "
+                                      "was stopped; give --force to replace it");
 }
 
 std::vector<std::pair<std::string, MetadataValue>>

@@ -65,7 +65,7 @@ bool write_outputs(const RenderCommand& command, const FilmHeader& header, Sessi
     report.host_peak_bytes = peak_host_bytes();
     if (!command.stats_file.empty())
         write_text_file(command.stats_file, json_text(to_json(report)),
-                        existing_files(command.force));
+                        existing_files(command.force || command.skip_existing));
     return good;
 }
 

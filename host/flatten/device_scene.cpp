@@ -70,13 +70,13 @@ std::size_t primitive_count(const Shape& shape) {
     return mesh ? mesh->triangles.size() : 1;
 }
 
-DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
+DeviceScene flatten_scene(const Scene& scene, LightChoice choice, DeviceScene* before) {
     DeviceScene out;
     out.frame = scene_frame(scene);
     out.notes = rounding_notes(scene, out.frame);
     for (const Material& material : scene.materials)
         out.materials.push_back(material_record(material.bsdf));
-    add_textures(scene, out);
+    add_textures(scene, before, out);
     add_shapes(scene, out);
     add_lobes(scene, out);
     add_light_table(scene, choice, out);
@@ -90,8 +90,8 @@ DeviceScene flatten_scene(const Scene& scene, LightChoice choice) {
     return out;
 }
 
-DeviceScene make_device_scene(const Scene& scene, LightChoice choice) {
-    DeviceScene out = flatten_scene(scene, choice);
+DeviceScene make_device_scene(const Scene& scene, LightChoice choice, DeviceScene* before) {
+    DeviceScene out = flatten_scene(scene, choice, before);
     out.root = bvh_append(out.bvh, out.geometry, &out.bvh_statistics);
     out.camera_root = out.blocking_root = out.clear_root = out.root;
     if (out.features.has(feature_clear_shadows)) add_shadow_trees(out);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/bvh/bvh.h"
+#include "host/file_stamp.h"
 #include "host/flatten/feature_decisions.h"
 #include "host/flatten/scene_frame.h"
 #include "host/large_vector.h"
@@ -9,6 +10,8 @@
 #include "kernels/device/buffers.h"
 #include "kernels/shared/types.h"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +32,17 @@ struct Environment {
     double peak = 0.0; ///< largest component
 };
 
+/// Whence some of the texels are.
+struct ImageOrigin {
+    std::string name;
+    TexelLayout layout;
+    bool decoded = false;           ///< 16 bits of sRGB, made linear
+    std::optional<FileStamp> stamp; ///< nothing where it is no file
+    std::size_t first = 0;          ///< word
+
+    bool operator==(const ImageOrigin&) const = default;
+};
+
 /// How one of many lights is chosen: by what it may send to the point to be lit, or by its power
 /// alone.
 enum class LightChoice { importance, power };
@@ -46,7 +60,8 @@ struct DeviceScene {
     std::vector<Rgb> texture_means;     ///< of `textures`, where some light has one
     std::vector<TextureRecord> textures;
     LargeVector<int> texels;
-    std::vector<float> byte_values; ///< BYTE_VALUES of them where there are texels of bytes
+    std::vector<ImageOrigin> images; ///< of the first of them
+    std::vector<float> byte_values;  ///< BYTE_VALUES of them where there are texels of bytes
     std::vector<LightRecord> lights;
     std::vector<int> light_textures; ///< empty where no light has one
     LightTree light_tree;            ///< empty where there is only one light
@@ -72,10 +87,14 @@ struct DeviceScene {
 
 /// All of it but the BVH: what may be wrong with a scene is seen here. Throws InputError, among
 /// others where the scene is larger than the device's 32-bit indices.
-DeviceScene flatten_scene(const Scene& scene, LightChoice choice = LightChoice::importance);
+/// `before`, where there is one, is of another scene: texels of files that have not changed since
+/// are taken from it.
+DeviceScene flatten_scene(const Scene& scene, LightChoice choice = LightChoice::importance,
+                          DeviceScene* before = nullptr);
 
 /// Flattens a scene and builds its BVH. Throws as flatten_scene does.
-DeviceScene make_device_scene(const Scene& scene, LightChoice choice = LightChoice::importance);
+DeviceScene make_device_scene(const Scene& scene, LightChoice choice = LightChoice::importance,
+                              DeviceScene* before = nullptr);
 
 /// Of a shape; 0 for a mesh without triangles.
 std::size_t primitive_count(const Shape& shape);

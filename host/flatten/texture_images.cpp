@@ -35,6 +35,29 @@ void read_image(const ImageTexels& image, LargeVector<int>& texels) {
     }
 }
 
+/// Before they are read.
+std::vector<ImageOrigin> origins_of(const std::vector<ImageTexels>& images) {
+    std::vector<ImageOrigin> origins;
+    origins.reserve(images.size());
+    for (const ImageTexels& image : images) {
+        const TexelSource& source = image.bitmap->source;
+        origins.push_back({source.name, source.layout, decoded_when_read(*image.bitmap),
+                           file_stamp(source.name), image.first});
+    }
+    return origins;
+}
+
+/// The texels of `wanted` in `before`; empty where they are not there.
+std::span<const int> kept_texels(const ImageOrigin& wanted, std::size_t words,
+                                 const DeviceScene& before) {
+    if (!wanted.stamp) return {};
+    for (ImageOrigin kept : before.images) {
+        const std::size_t first = std::exchange(kept.first, wanted.first);
+        if (kept == wanted) return std::span(before.texels).subspan(first, words);
+    }
+    return {};
+}
+
 } // namespace
 
 void check_words(const Scene& scene, std::size_t words) {
@@ -64,21 +87,38 @@ Images place_images(const Scene& scene, const TextureRows& rows) {
     return placed;
 }
 
-void read_images(const std::vector<ImageTexels>& images, LargeVector<int>& texels) {
-    if (images.empty()) return;
+std::vector<ImageOrigin> read_images(const std::vector<ImageTexels>& images, DeviceScene* before,
+                                     LargeVector<int>& texels) {
+    if (images.empty()) return {};
+    std::vector<ImageOrigin> origins = origins_of(images);
+    const bool all_kept = before && before->images == origins &&
+                          std::all_of(origins.begin(), origins.end(),
+                                      [](const ImageOrigin& o) { return o.stamp.has_value(); });
+    if (all_kept) { // without memory for both
+        texels = std::move(before->texels);
+        before->images.clear();
+    }
     std::size_t words = images.back().first + images.back().words();
     texels.resize(words + spare_words);
     std::fill_n(texels.end() - spare_words, spare_words, 0);
+    if (all_kept) return origins;
     std::vector<std::exception_ptr> errors(images.size());
     parallel_for(images.size(), [&](std::size_t n) {
         try {
-            read_image(images[n], texels);
+            std::span<const int> kept;
+            if (before) kept = kept_texels(origins[n], images[n].words(), *before);
+            if (kept.empty())
+                read_image(images[n], texels);
+            else
+                std::copy(kept.begin(), kept.end(),
+                          texels.begin() + std::ptrdiff_t(images[n].first));
         } catch (...) {
             errors[n] = std::current_exception();
         }
     });
     for (const std::exception_ptr& error : errors)
         if (error) std::rethrow_exception(error);
+    return origins;
 }
 
 } // namespace parhelion

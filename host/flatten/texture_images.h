@@ -35,8 +35,10 @@ void check_words(const Scene& scene, std::size_t words);
 
 Images place_images(const Scene& scene, const TextureRows& rows);
 
-/// Into `texels`, and spare_words behind them. Throws InputError for an image that cannot be read;
-/// of several the first is told of.
-void read_images(const std::vector<ImageTexels>& images, LargeVector<int>& texels);
+/// Into `texels`, and spare_words behind them; whence they are. Those of files that `before`, which
+/// may be null, has and that have not changed since are taken from there. Throws InputError for an
+/// image that cannot be read; of several the first is told of.
+std::vector<ImageOrigin> read_images(const std::vector<ImageTexels>& images, DeviceScene* before,
+                                     LargeVector<int>& texels);
 
 } // namespace parhelion

@@ -170,7 +170,7 @@ std::vector<std::shared_ptr<const Texture>> textures_of(const Scene& scene) {
     return name_textures(scene, {}, true).rows.textures();
 }
 
-void add_textures(const Scene& scene, DeviceScene& out) {
+void add_textures(const Scene& scene, DeviceScene* before, DeviceScene& out) {
     out.material_textures.assign(scene.materials.size(), no_textures);
     out.blend_textures.assign(scene.blends.size(), -1);
     out.radiance_textures.assign(scene.shapes.size(), -1);
@@ -183,7 +183,7 @@ void add_textures(const Scene& scene, DeviceScene& out) {
     out.emitter_textures = named.of_emitters;
     const TextureRows& rows = named.rows;
     const Images images = place_images(scene, rows);
-    read_images(images.images, out.texels);
+    out.images = read_images(images.images, before, out.texels);
     std::vector<ValueBounds> bounds = bounds_of(rows, images, out.texels);
     bool bytes = false;
     for (std::size_t row = 0; row < rows.textures().size(); row++) {

@@ -16,8 +16,8 @@ std::vector<std::shared_ptr<const Texture>> textures_of(const Scene& scene);
 
 /// Reads texels and adds the records of textures, and for each material which it has; none where
 /// nothing of the image asks for materials. Throws InputError for an image that cannot be read, and
-/// for values that the parameter they are for cannot take.
-void add_textures(const Scene& scene, DeviceScene& out);
+/// for values that the parameter they are for cannot take. `before`: as flatten_scene has it.
+void add_textures(const Scene& scene, DeviceScene* before, DeviceScene& out);
 
 /// Materials whose lobes lie along texture coordinates.
 std::size_t count_anisotropic(const DeviceScene& records);

@@ -86,8 +86,16 @@ private:
 
 class DeviceEngine : public Engine {
 public:
-    DeviceEngine(DeviceScene scene, DeviceWaves waves, const WorkSizes& sizes)
-        : scene_(std::move(scene)), waves_(std::move(waves)), sizes_(sizes) {}
+    DeviceEngine(RenderDevice& device, DeviceScene scene, DeviceWaves waves, const WorkSizes& sizes)
+        : device_(device), scene_(std::move(scene)), waves_(std::move(waves)), sizes_(sizes) {}
+    DeviceEngine(const DeviceEngine&) = delete;
+    DeviceEngine& operator=(const DeviceEngine&) = delete;
+    ~DeviceEngine() override {
+        if (!device_.keeps_scenes) return;
+        device_.scene.emplace();
+        device_.scene->texels = std::move(scene_.texels);
+        device_.scene->images = std::move(scene_.images);
+    }
 
     /// Film and streams.
     void allocate(const Scene& scene, const AovPlan& aovs, bool checked) {
@@ -129,6 +137,7 @@ private:
                     "a kernel reads or writes outside of its buffers, from {} on", buffer));
     }
 
+    RenderDevice& device_;
     DeviceScene scene_;
     DeviceWaves waves_; // reads the scene where it is
     WorkSizes sizes_;
@@ -145,10 +154,10 @@ FeatureSet render_features(const DeviceScene& scene, const RenderOptions& option
 }
 
 DeviceScene flattened(const Scene& scene, LightChoice light_choice, Progress& progress,
-                      RenderReport& report) {
+                      RenderReport& report, DeviceScene* before) {
     progress.start("building the BVH");
     auto start = Clock::now();
-    DeviceScene flat = make_device_scene(scene, light_choice);
+    DeviceScene flat = make_device_scene(scene, light_choice, before);
     report.bvh_seconds = seconds_since(start);
     report.scene_file = scene.file;
     report.width = scene.film.crop_width, report.height = scene.film.crop_height;
@@ -193,11 +202,13 @@ OpenedRender open_on_device(const Scene& scene, RenderDevice& device, const Rend
     const int samples = scene.sampler.samples_per_pixel;
     const WorkSizes sizes = work_sizes(layout, samples, report.lanes, split);
 
-    DeviceScene flat = flattened(scene, options.light_choice, progress, report);
+    DeviceScene flat = flattened(scene, options.light_choice, progress, report,
+                                 device.scene ? &*device.scene : nullptr);
+    device.scene.reset();
     const FilmContent content = film_content(scene, aovs, flat.frame);
     DeviceWaves waves = compiled(device, flat, options, progress, report);
     const auto start = Clock::now();
-    auto engine = std::make_unique<DeviceEngine>(std::move(flat), std::move(waves), sizes);
+    auto engine = std::make_unique<DeviceEngine>(device, std::move(flat), std::move(waves), sizes);
     engine->allocate(scene, aovs, options.checked);
     report.upload_seconds = seconds_since(start);
     return {std::move(engine), content, layout.blocks(), samples, std::move(report)};

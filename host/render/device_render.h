@@ -42,9 +42,9 @@ RenderResult render(const Scene& scene, RenderDevice& device, const RenderOption
 OpenedRender open_on_device(const Scene& scene, RenderDevice& device, const RenderOptions& options,
                             Progress& progress);
 
-/// As records, with what the report says of scene and picture.
+/// As records, with what the report says of scene and picture. `before`: as flatten_scene has it.
 DeviceScene flattened(const Scene& scene, LightChoice light_choice, Progress& progress,
-                      RenderReport& report);
+                      RenderReport& report, DeviceScene* before = nullptr);
 
 /// Renders all of it.
 RenderResult rendered(OpenedRender opened, Progress& progress);

@@ -12,6 +12,8 @@
 
 namespace parhelion {
 
+class KeptMeshes; // host/scene/meshes/kept_meshes.h
+
 struct LoadOptions {
     std::map<std::string, std::string>
         parameters;              ///< -D name=value, replacing the file's <default>s
@@ -24,6 +26,8 @@ struct LoadOptions {
     /// Is told of each file that the scene names, before it is read; throws InputError for one that
     /// may not be.
     std::function<void(const std::string&)> check_file{};
+    /// Of the scenes before, which this one takes over and adds to; null: there are none.
+    KeptMeshes* meshes = nullptr;
 };
 
 /// Loads a scene (the format is chosen by the file's extension).

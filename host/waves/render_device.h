@@ -4,6 +4,7 @@
 #include "host/child_process.h"
 #include "host/cl/program.h"
 #include "host/cl/work_folder.h"
+#include "host/flatten/device_scene.h"
 #include "host/waves/stages.h"
 
 #include <filesystem>
@@ -31,6 +32,8 @@ struct RenderDevice {
     ProgramCache cache = ProgramCache::standard().with_spare(spare_cache_folder(work_folder({})));
     std::map<std::string, Program> programs; ///< by key
     CompileBeside compile_beside;            ///< may be empty: all is compiled in this process
+    bool keeps_scenes = false;               ///< whether a render leaves texels to the next one
+    std::optional<DeviceScene> scene{};      ///< those of the render before, and nothing else
 };
 
 /// For what a program does last: the process ends without closing the device, which would take the

@@ -2,6 +2,8 @@
 // be opened.
 #include "host/commands/command_line.h"
 #include "host/commands/compare.h"
+#include "host/commands/frames.h"
+#include "host/commands/number_ranges.h"
 #include "host/commands/render.h"
 #include "property.h"
 #include "targets.h"
@@ -29,7 +31,10 @@ void check_film(const Film& film) {
             "the crop lies inside the film's height");
 }
 
-int use_render(const RenderCommand& command) {
+int use_render(const RenderCommand& all) {
+    const Frames frames(all);
+    promise(frames.count() > 0 && frames.count() <= most_renders, "there are renders");
+    const RenderCommand command = frames.command(frames.count() - 1);
     check_command(command);
     static_cast<void>(parse_definitions(command.definitions));
     Scene scene;

@@ -125,6 +125,29 @@ TEST_CASE("Progress: lines and terminal say the same in their ways", "[progress]
     CHECK(told(Progress::Mode::quiet, tell).empty());
 }
 
+TEST_CASE("Progress: which of several renders it is, and a note once", "[progress]") {
+    const auto tell = [](Progress& progress) {
+        progress.note("note: before");
+        progress.start_part(3, 10);
+        progress.start("loading", "scene.xml");
+        progress.finish("done");
+        progress.note("note: before");
+        progress.note("note: of this one");
+        progress.start_part(4, 10);
+        progress.note("note: of this one");
+    };
+    const std::string lines = told(Progress::Mode::lines, tell);
+    CHECK(lines.starts_with("note: before\n3/10 loading scene.xml: "));
+    CHECK(lines.ends_with(", done\n3/10 note: of this one\n"));
+    const std::vector<nlohmann::json> all = objects(told(Progress::Mode::json, tell));
+    REQUIRE(all.size() == 4);
+    CHECK_FALSE(all[0].contains("render"));
+    for (std::size_t i = 1; i < all.size(); i++) {
+        CHECK(all[i].at("render") == 3);
+        CHECK(all[i].at("renders") == 10);
+    }
+}
+
 TEST_CASE("Progress: what is asked for, and what contradicts itself", "[progress]") {
     CHECK(Progress::mode_of("json", false) == Progress::Mode::json);
     CHECK(Progress::mode_of("lines", false) == Progress::Mode::lines);

@@ -61,9 +61,10 @@ struct Document {
     std::vector<Object> objects; ///< the scene itself first
     FileFinder files;
     std::vector<std::string> notes;
-    Problems problems{};         ///< of its syntax
-    bool own_integrator = false; ///< LoadOptions::own_integrator
-    bool lenient = false;        ///< LoadOptions::lenient
+    Problems problems{};          ///< of its syntax
+    bool own_integrator = false;  ///< LoadOptions::own_integrator
+    bool lenient = false;         ///< LoadOptions::lenient
+    KeptMeshes* meshes = nullptr; ///< LoadOptions::meshes
 };
 
 /// Reads an XML scene with all its includes: parameters substituted, old versions upgraded,

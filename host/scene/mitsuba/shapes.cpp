@@ -1,4 +1,5 @@
 // The shape plugins.
+#include "host/scene/meshes/kept_meshes.h"
 #include "host/scene/meshes/mesh_data.h"
 #include "host/scene/meshes/mesh_obj.h"
 #include "host/scene/meshes/mesh_ply.h"
@@ -44,43 +45,52 @@ Geometry read_mesh(const ShapeInput& in, MeshData data, const MeshOptions& optio
     return make_mesh(std::move(data), options, in.p.location(), in.notes);
 }
 
-/// load(path, place) of the file that the shape names.
+/// Of load(path, place) of the file that the shape names, or what was kept of that. `how`: it is
+/// loaded.
 template<class Load>
-auto load_file(const ShapeInput& in, const Load& load) {
+Geometry read_file(const ShapeInput& in, const std::string& how, const MeshOptions& options,
+                   const Load& load) {
     const std::string name = in.p.required_text("filename");
     in.p.check();
     const SourceLocation place = in.p.location_of("filename");
-    return named_at(place, [&] { return load(in.document.files.file(name, place), place); });
+    const std::filesystem::path path =
+        named_at(place, [&] { return in.document.files.file(name, place); });
+    const auto make = [&] {
+        SerializedMesh file = named_at(place, [&] { return SerializedMesh{load(path, place)}; });
+        MeshOptions all = options;
+        all.face_normals |= file.face_normals;
+        MadeMesh made;
+        made.mesh = make_mesh(std::move(file.mesh), all, in.p.location(), made.notes);
+        return made;
+    };
+    KeptMeshes* const kept = in.document.meshes;
+    MadeMesh made = kept ? kept->mesh(path, mesh_key(how, options, in.p.location()), make) : make();
+    in.notes.insert(in.notes.end(), made.notes.begin(), made.notes.end());
+    return std::move(made.mesh);
 }
 
 Geometry read_obj(const ShapeInput& in) {
     const bool flip_v = in.p.boolean("flip_tex_coords", true);
-    const MeshOptions options = read_mesh_options(in.p);
-    return read_mesh(
-        in,
-        load_file(in, [&](const auto& path,
-                          const SourceLocation& place) { return load_obj(path, flip_v, place); }),
-        options);
+    return read_file(in, flip_v ? "obj flipped" : "obj", read_mesh_options(in.p),
+                     [&](const auto& path, const SourceLocation& place) {
+                         return load_obj(path, flip_v, place);
+                     });
 }
 
 Geometry read_ply(const ShapeInput& in) {
     const bool flip_v = in.p.boolean("flip_tex_coords", false);
-    const MeshOptions options = read_mesh_options(in.p);
-    return read_mesh(
-        in,
-        load_file(in, [&](const auto& path,
-                          const SourceLocation& place) { return load_ply(path, flip_v, place); }),
-        options);
+    return read_file(in, flip_v ? "ply flipped" : "ply", read_mesh_options(in.p),
+                     [&](const auto& path, const SourceLocation& place) {
+                         return load_ply(path, flip_v, place);
+                     });
 }
 
 Geometry read_serialized(const ShapeInput& in) {
     const std::int64_t index = in.p.integer("shape_index", 0);
-    MeshOptions options = read_mesh_options(in.p);
-    SerializedMesh file = load_file(in, [&](const auto& path, const SourceLocation& place) {
-        return load_serialized(path, index, place);
-    });
-    options.face_normals |= file.face_normals;
-    return read_mesh(in, std::move(file.mesh), options);
+    return read_file(in, "serialized " + std::to_string(index), read_mesh_options(in.p),
+                     [&](const auto& path, const SourceLocation& place) {
+                         return load_serialized(path, index, place);
+                     });
 }
 
 /// A built-in flat-sided mesh. Its normals transform as normals do, so a mirror does not turn it

@@ -46,7 +46,8 @@ public:
                     .files = FileFinder(file, options.allow_outside, options.check_file),
                     .notes = {},
                     .own_integrator = options.own_integrator,
-                    .lenient = options.lenient},
+                    .lenient = options.lenient,
+                    .meshes = options.meshes},
           substitution_(options.parameters) {}
 
     Document read(const XmlFile& xml, const LoadOptions& options);
