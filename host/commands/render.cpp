@@ -126,7 +126,9 @@ int run_render(const RenderCommand& command) {
     const Scene scene = load(command, messages, progress);
     const int samples = scene.sampler.samples_per_pixel;
     const RenderKey key = render_key(command, scene);
-    const std::optional<Existing> existing = check_left_over(command, render_digest(key, samples));
+    const std::optional<Existing> existing = check_left_over(
+        command, render_digest(key, samples),
+        exr_options(command.form, film_content(scene, plan_aovs(scene), SceneFrame{})));
     if (!existing) {
         progress.note(command.output + " is there already, whole");
         return static_cast<int>(ExitCode::ok);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/commands/command_line.h"
+#include "host/commands/picture_form.h"
 #include "host/image/distinct_files.h"
 #include "host/render/device_render.h"
 #include "host/render/shard.h"
@@ -25,6 +26,7 @@ struct RenderCommand {
     std::optional<int> samples, replicates, max_depth, rr_depth, sensor;
     std::optional<std::uint32_t> seed;
     std::optional<double> exposure;
+    PictureForm form;
     std::optional<std::string> pixel; ///< X,Y of the sample to trace
     std::optional<int> sample;        ///< and its number
     bool trace = false;

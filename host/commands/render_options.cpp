@@ -240,7 +240,8 @@ std::vector<Option> kernel_options(RenderCommand& c) {
 std::vector<Option> render_options(RenderCommand& c) {
     std::vector<Option> options = sampling_options(c);
     for (const std::vector<Option>& more :
-         {image_options(c), part_options(c), trace_options(c), kernel_options(c), pool_options(c)})
+         {image_options(c), picture_form_options(c.form), part_options(c), trace_options(c),
+          kernel_options(c), pool_options(c)})
         append(options, more);
     return options;
 }

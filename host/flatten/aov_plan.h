@@ -23,6 +23,11 @@ inline constexpr std::array aov_kinds{AOVS(AOV_INFO)};
 static_assert(aov_kinds.size() <= AOV_LIMIT);
 inline constexpr std::array film_aov_kinds{FILM_AOVS(AOV_INFO)};
 
+/// Whether the values of a kind are numbers of things, whose suffix says so.
+constexpr bool holds_whole_numbers(const AovKindInfo& kind) {
+    return kind.suffixes == "I" || kind.suffixes == "N";
+}
+
 /// What the film's channels behind the results hold: for each AOV asked for, its name, kind and
 /// first channel.
 struct AovLayer {

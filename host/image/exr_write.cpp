@@ -1,6 +1,7 @@
 // Writing an Image as an OpenEXR file, a band of rows at a time.
 #include "host/error.h"
 #include "host/image/exr.h"
+#include "host/image/exr_names.h"
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
@@ -27,18 +28,6 @@ namespace parhelion {
 namespace {
 
 constexpr int band_rows = 256; ///< rows converted at a time: ZIP's blocks of 16 for all threads
-
-Imf::PixelType pixel_type(ComponentFormat component) {
-    switch (component) {
-    case ComponentFormat::float16:
-        return Imf::HALF;
-    case ComponentFormat::float32:
-        return Imf::FLOAT;
-    case ComponentFormat::uint32:
-        return Imf::UINT;
-    }
-    throw std::invalid_argument("unknown component format");
-}
 
 std::size_t byte_size(Imf::PixelType type) { return type == Imf::HALF ? 2 : 4; }
 
@@ -67,19 +56,20 @@ void insert_metadata(Imf::Header& header, const std::string& name, const Metadat
     }
 }
 
-Imf::Header make_header(const Image& image, Imf::PixelType type) {
+Imf::Header make_header(const Image& image, const ExrOptions& options) {
     using Imath::Box2i;
     using Imath::V2i;
     const Box2i display(V2i(0, 0), V2i(image.full_width - 1, image.full_height - 1));
     const V2i corner(image.offset_x, image.offset_y);
     const Box2i data(corner, corner + V2i(image.width - 1, image.height - 1));
     Imf::Header header(display, data, 1.0f, Imath::V2f(0, 0), 1.0f, Imf::INCREASING_Y,
-                       Imf::ZIP_COMPRESSION);
+                       exr_compression(options.compression));
     // Noise hardly compresses: measured, level 4 makes files 0.3 % smaller in a tenth more time.
     header.zipCompressionLevel() = 2;
     Imf::addChromaticities(header, Imf::Chromaticities()); // the default is Rec. 709 with D65
     for (const Channel& channel : image.channels)
-        header.channels().insert(channel.name, Imf::Channel(type));
+        header.channels().insert(channel.name,
+                                 Imf::Channel(exr_component(options.component_of(channel.name))));
     for (const auto& [name, value] : image.metadata)
         insert_metadata(header, name, value);
     return header;
@@ -124,23 +114,25 @@ void convert_rows(const Image& image, std::size_t channel, int first, int rows, 
 }
 
 /// Converts and writes all rows; returns what did not fit, an entry a channel.
-std::vector<Misfits> write_rows(Imf::OutputFile& output, const Image& image, Imf::PixelType type) {
-    const std::size_t bytes = byte_size(type);
-    const std::size_t row_bytes = bytes * image.width;
-    std::vector<std::vector<char>> bands(image.channels.size(),
-                                         std::vector<char>(row_bytes * band_rows));
+std::vector<Misfits> write_rows(Imf::OutputFile& output, const Image& image) {
+    std::vector<std::vector<char>> bands;
     std::vector<Misfits> misfits;
-    for (const Channel& channel : image.channels)
+    for (const Channel& channel : image.channels) {
+        const Imf::PixelType type = output.header().channels()[channel.name].type;
+        bands.emplace_back(byte_size(type) * image.width * band_rows);
         misfits.push_back({.channel = channel.name});
+    }
     for (int first = 0; first < image.height; first += band_rows) {
         const int rows = std::min(band_rows, image.height - first);
         Imf::FrameBuffer frame;
         for (std::size_t c = 0; c < image.channels.size(); ++c) {
+            const Imf::PixelType type = output.header().channels()[image.channels[c].name].type;
+            const std::size_t bytes = byte_size(type);
             convert_rows(image, c, first, rows, type, bands[c].data(), misfits[c]);
             frame.insert(image.channels[c].name,
                          Imf::Slice::Make(type, bands[c].data(),
                                           Imath::V2i(image.offset_x, image.offset_y + first),
-                                          image.width, rows, bytes, row_bytes));
+                                          image.width, rows, bytes, bytes * image.width));
         }
         output.setFrameBuffer(frame);
         output.writePixels(rows);
@@ -151,8 +143,8 @@ std::vector<Misfits> write_rows(Imf::OutputFile& output, const Image& image, Imf
 
 /// `file`: its name in messages.
 std::vector<Misfits> write_stream(const std::string& temporary, const std::string& file,
-                                  const Image& image, Imf::PixelType type) {
-    const Imf::Header header = make_header(image, type);
+                                  const Image& image, const ExrOptions& options) {
+    const Imf::Header header = make_header(image, options);
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (!stream) throw std::runtime_error(std::strerror(errno));
     std::vector<Misfits> misfits;
@@ -162,7 +154,7 @@ std::vector<Misfits> write_stream(const std::string& temporary, const std::strin
             tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
         Imf::setGlobalThreadCount(threads);
         Imf::OutputFile output(sink, header, threads);
-        misfits = write_rows(output, image, type);
+        misfits = write_rows(output, image);
     } // writes the line offset table and hides any failure to do so, hence the check below
     stream.close();
     if (!stream) throw std::runtime_error(std::strerror(errno));
@@ -177,8 +169,7 @@ std::vector<Misfits> write_exr(const std::string& file, const Image& image,
     PendingFile pending(file, options.existing);
     std::vector<Misfits> misfits;
     try {
-        misfits =
-            write_stream(pending.temporary_name(), file, image, pixel_type(options.component));
+        misfits = write_stream(pending.temporary_name(), file, image, options);
     } catch (const std::invalid_argument&) {
         throw; // a mistake of the caller, not of the disk
     } catch (const std::exception& error) {
