@@ -1,4 +1,5 @@
 // Command-line values that replace the scene's.
+#include "host/commands/light_group_options.h"
 #include "host/commands/render.h"
 #include "host/flatten/filter_table.h"
 #include "host/scene/limits.h"
@@ -155,6 +156,9 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (!command.energy_compensation) leave_out_energy_compensation(scene);
     for (const std::string& name : command.aovs)
         scene.integrator.aovs.push_back(aov_request(name));
+    if (!command.light_groups.empty() || command.group_by_light)
+        scene.integrator.light_groups =
+            light_groups(command.light_groups, command.group_by_light, scene);
 }
 
 std::array<int, 2> parse_pixel(const std::string& text, const Film& film) {

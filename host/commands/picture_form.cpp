@@ -52,6 +52,8 @@ std::vector<PictureLayer> layers_of(const FilmContent& content) {
         layers.push_back({layer.name, holds_whole_numbers(aov_kinds[layer.kind])});
     for (const AovLayer& layer : content.aovs.film_layers)
         layers.push_back({layer.name, holds_whole_numbers(film_aov_kinds[layer.kind])});
+    for (const LightGroupLayer& layer : content.aovs.light_groups)
+        layers.push_back({layer.name, false});
     if (content.second_moment) layers.push_back({"second_moment", false});
     return layers;
 }

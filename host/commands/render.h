@@ -21,6 +21,8 @@ struct RenderCommand {
     std::string progress = "auto";
     std::vector<std::string> definitions; ///< name=value
     std::vector<std::string> aovs;
+    std::vector<std::string> light_groups; ///< NAME=ID,ID or ID
+    bool group_by_light = false;           ///< every emitter that has an id
     std::optional<std::string> integrator, size, crop, sampler, filter_method, precision,
         shading_normals;
     std::optional<int> samples, replicates, max_depth, rr_depth, sensor;

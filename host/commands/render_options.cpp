@@ -117,6 +117,12 @@ std::vector<Option> light_options(RenderCommand& c) {
          &c.aovs,
          "Layers beside the image, e.g. albedo,normals,depth",
          {.delimiter = ',', .words = aov_words()}},
+        {"--light-group", &c.light_groups,
+         "NAME=ID,... (repeat for more): the light of emitters of these ids, or on shapes of these "
+         "ids, in a layer light.NAME beside the image; ID alone is a group of that name. What no "
+         "group has is light.rest: all add up to the image"},
+        {"--light-groups", &c.group_by_light,
+         "One for each emitter that has an id, or whose shape has one, and is in no other"},
         {"-D,--define", &c.definitions, "name=value for the scene's $name (repeat for more)"},
         {"--allow-outside", &c.allow_outside, "Let the scene name files outside its own folder"},
         {"--lenient", &c.lenient, lenient_help},

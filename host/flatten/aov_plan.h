@@ -36,8 +36,15 @@ struct AovLayer {
     int channel;      ///< counted from the first AOV channel
 };
 
+/// What a group of emitters sends, in r, g, b.
+struct LightGroupLayer {
+    std::string name; ///< of the EXR layer
+    int channel;      ///< counted from the first AOV channel
+};
+
 struct AovPlan {
     std::vector<AovLayer> layers;
+    std::vector<LightGroupLayer> light_groups; ///< those of the integrator
     int channels = 0;
     std::vector<AovLayer> film_layers; ///< enum FilmAovKind; they have no channel of their own
 };

@@ -73,8 +73,8 @@ constexpr FeatureSet stage_features(Stage stage, const FeatureSet& scene) {
     case Stage::generate:
         return film | camera | FeatureSet{feature_faure, feature_replicates, feature_clear_shadows};
     case Stage::shadow:
-        if (scene.has(feature_clear_shadows)) return shapes | streams | clear_surface_features();
-        [[fallthrough]];
+        return shapes | streams | FeatureSet{feature_light_groups} |
+               (scene.has(feature_clear_shadows) ? clear_surface_features() : FeatureSet{});
     case Stage::intersect:
         return shapes | streams;
     case Stage::accumulate:

@@ -48,5 +48,26 @@ def form(wanted, name, plain):
             require((values == rounded).all(), f"{channel} is not what was rendered")
 
 
+def same_values(name, other):
+    ours, truth = channels(name), channels(other)
+    require(ours.keys() == truth.keys(), f"channels {sorted(ours)}")
+    for channel, (_, values) in ours.items():
+        require(values.tobytes() == truth[channel][1].tobytes(), f"{channel} differs")
+
+
+def groups(name, plain, *wanted):
+    """The groups are there and no others; they add up to the image, which is that without them."""
+    ours, truth = channels(name), channels(plain)
+    there = {channel.split(".")[1] for channel in ours if channel.startswith("light.")}
+    require(there == set(wanted), f"groups {sorted(there)}")
+    for color in "RGB":
+        image = ours[color][1].astype(numpy.float64)
+        require((ours[color][1] == truth[color][1]).all(), f"{color} is not the image without groups")
+        layers = [ours[f"light.{group}.{color}"][1].astype(numpy.float64) for group in wanted]
+        require(all((layer != 0).any() for layer in layers), f"a group is black in {color}")
+        off = numpy.abs(sum(layers) - image) / image
+        require(off.max() < 16 * 2.0**-24, f"{color}: the sum of groups is off by {off.max()}")
+
+
 if __name__ == "__main__":
-    {"form": form, "packed": packed}[sys.argv[1]](*sys.argv[2:])
+    {"form": form, "groups": groups, "packed": packed, "same_values": same_values}[sys.argv[1]](*sys.argv[2:])

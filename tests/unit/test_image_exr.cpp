@@ -194,11 +194,12 @@ TEST_CASE("Image: channels that do not belong are refused") {
 TEST_CASE("EXR: every compression, of which those that lose something lose what is said alone") {
     const TemporaryFolder folder;
     const std::string file = folder.file("a.exr");
-    // Smooth and finite, with digits beyond those of a half: what a lossy packing would change.
+    // Uneven and finite, with digits beyond those of a half: what a lossy packing would change.
     Image image = make_image(67, 41);
     std::vector<float> ramp(image.pixel_count());
     for (std::size_t i = 0; i < ramp.size(); i++)
-        ramp[i] = 0.1f + 0.00123f * static_cast<float>(i % 67) + 1e-6f * static_cast<float>(i / 67);
+        ramp[i] =
+            0.1f + 0.00123f * static_cast<float>(i % 67) + 0.01f * static_cast<float>(i * i % 29);
     for (const char* name : {"R", "normal.Y", "depth.T", "samples.N", "half.R", "half.T"})
         add_channel(image, name, ramp);
     for (std::size_t i = 0; i < exr_compression_names.size(); i++) {

@@ -94,8 +94,9 @@ void SceneBuilder::add_shape(const Object& object) {
         there = true;
     });
     attempt([&] {
-        if (parts.emitter)
-            set_radiance(shape, read_area_emitter(document_, *parts.emitter, scene_.notes));
+        if (!parts.emitter) return;
+        set_radiance(shape, read_area_emitter(document_, *parts.emitter, scene_.notes));
+        shape.emitter_id = parts.emitter->id;
     });
     problems_.attempt([&] {
         const SurfaceMaterials materials =
@@ -119,6 +120,7 @@ void SceneBuilder::add_emitter(const Object& object) {
         background_ = object.location;
     }
     scene_.emitters.push_back(emitter);
+    scene_.emitter_ids.push_back(object.id);
 }
 
 void refuse_second(std::optional<SourceLocation>& first, const Child& child, const char* tag) {
