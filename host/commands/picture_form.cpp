@@ -41,20 +41,31 @@ ExrCompression compression_of(const PictureForm& form) {
     return static_cast<ExrCompression>(found - exr_compression_names.begin());
 }
 
+/// `whole_numbers` that half does not hold beyond 2048; `hashes` that only float holds.
+enum class Values { any, whole_numbers, hashes };
+
 struct PictureLayer {
     std::string name;
-    bool whole_numbers;
+    Values values;
 };
 
+template<class Kind>
+Values values_of(const Kind& kind) {
+    return holds_whole_numbers(kind) ? Values::whole_numbers : Values::any;
+}
+
 std::vector<PictureLayer> layers_of(const FilmContent& content) {
-    std::vector<PictureLayer> layers{{"", false}};
+    std::vector<PictureLayer> layers{{"", Values::any}};
     for (const AovLayer& layer : content.aovs.layers)
-        layers.push_back({layer.name, holds_whole_numbers(aov_kinds[layer.kind])});
+        layers.push_back({layer.name, values_of(aov_kinds[layer.kind])});
     for (const AovLayer& layer : content.aovs.film_layers)
-        layers.push_back({layer.name, holds_whole_numbers(film_aov_kinds[layer.kind])});
+        layers.push_back({layer.name, values_of(film_aov_kinds[layer.kind])});
     for (const LightGroupLayer& layer : content.aovs.light_groups)
-        layers.push_back({layer.name, false});
-    if (content.second_moment) layers.push_back({"second_moment", false});
+        layers.push_back({layer.name, Values::any});
+    if (content.second_moment) layers.push_back({"second_moment", Values::any});
+    for (const CryptomatteLayer& layer : content.cryptomatte.layers)
+        for (const std::string& name : channel_layers(layer, content.cryptomatte.depth))
+            layers.push_back({name, Values::hashes});
     return layers;
 }
 
@@ -83,10 +94,10 @@ void set_components(const PictureForm& form, const std::vector<PictureLayer>& la
             continue;
         }
         const PictureLayer& layer = layer_called(format.layer, layers);
-        if (layer.whole_numbers && format.component == ComponentFormat::float16)
-            throw InputError(fmt::format("--layer-format '{}': half does not hold the whole "
-                                         "numbers of that layer beyond 2048 (accepted: float)",
-                                         text));
+        if (layer.values != Values::any && format.component == ComponentFormat::float16)
+            throw InputError(fmt::format(
+                "--layer-format '{}': half does not hold the {} of that layer (accepted: float)",
+                text, layer.values == Values::hashes ? "names" : "whole numbers beyond 2048"));
         options.layers[layer.name] = format.component;
     }
 }
@@ -128,13 +139,17 @@ ExrOptions exr_options(const PictureForm& form, const FilmContent& content) {
     const std::vector<PictureLayer> layers = layers_of(content);
     set_components(form, layers, options);
     for (const PictureLayer& layer : layers) {
-        if (!layer.whole_numbers) continue;
-        if (options.component == ComponentFormat::float16)
+        if (layer.values == Values::any) continue;
+        if (options.component == ComponentFormat::float16 || layer.values == Values::hashes)
             options.layers[layer.name] = ComponentFormat::float32;
-        if (exr_losses[static_cast<std::size_t>(options.compression)] == ExrLoss::of_floats)
-            throw InputError(fmt::format("--exr-compression {}: rounds the whole numbers of layer "
-                                         "'{}' (accepted: one that keeps floats)",
-                                         *form.compression, layer.name));
+        const ExrLoss loss = exr_losses[static_cast<std::size_t>(options.compression)];
+        if (loss == ExrLoss::of_floats ||
+            (loss == ExrLoss::of_colors && layer.values == Values::hashes))
+            throw InputError(fmt::format("--exr-compression {}: changes the {} of layer '{}' "
+                                         "(accepted: one that keeps them, e.g. zip, piz)",
+                                         *form.compression,
+                                         layer.values == Values::hashes ? "names" : "whole numbers",
+                                         layer.name));
     }
     return options;
 }

@@ -21,6 +21,8 @@ struct RenderCommand {
     std::string progress = "auto";
     std::vector<std::string> definitions; ///< name=value
     std::vector<std::string> aovs;
+    std::vector<std::string> cryptomatte; ///< object, material
+    std::optional<int> cryptomatte_depth;
     std::vector<std::string> light_groups; ///< NAME=ID,ID or ID
     bool group_by_light = false;           ///< every emitter that has an id
     std::optional<std::string> integrator, size, crop, sampler, filter_method, precision,
@@ -54,6 +56,9 @@ std::vector<UsedFile> files_of(const Scene& scene);
 /// Replaces what the scene file says by what the command line says. Throws InputError naming the
 /// option.
 void apply_overrides(const RenderCommand& command, Scene& scene);
+
+/// What --cryptomatte accepts.
+inline constexpr std::array cryptomatte_names{"object", "material"};
 
 /// What --precision accepts.
 inline constexpr std::array precision_names{"single", "double"};

@@ -59,6 +59,8 @@ void check_command(const RenderCommand& command) {
         throw InputError("--exposure: is for .png previews; an .exr holds linear values");
     if (!command.aovs.empty() && png)
         throw InputError("--aov: a .png preview holds no layers; write an .exr");
+    if (!command.cryptomatte.empty() && png)
+        throw InputError("--cryptomatte: a .png preview holds no layers; write an .exr");
     if ((!command.light_groups.empty() || command.group_by_light) && png)
         throw InputError("--light-group: a .png preview holds no layers; write an .exr");
     check_picture_form(command.form, command.output);

@@ -124,7 +124,7 @@ bool is_film_file(const std::string& file) {
 std::vector<Misfits> write_picture(const std::string& file, const FilmHeader& header,
                                    const FilmSums& sums, const WriteOptions& options) {
     Image image = film_image(sums, header.content);
-    image.metadata = header.metadata;
+    image.metadata.insert(image.metadata.begin(), header.metadata.begin(), header.metadata.end());
     add_unfinished(header, image);
     RenderReport report;
     report.misfits = write_image(file, image, options);

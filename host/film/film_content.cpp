@@ -46,6 +46,26 @@ nlohmann::json groups_json(const std::vector<LightGroupLayer>& layers) {
     return json;
 }
 
+nlohmann::json cryptomatte_json(const Cryptomatte& c) {
+    nlohmann::json layers = nlohmann::json::array();
+    for (const CryptomatteLayer& layer : c.layers)
+        layers.push_back({{"name", layer.name}, {"names", layer.names}});
+    return {{"depth", c.depth}, {"layers", layers}};
+}
+
+Cryptomatte cryptomatte_from(const nlohmann::json& json) {
+    Cryptomatte c;
+    c.depth = whole_number(json.at("depth"));
+    if (c.depth < 1 || c.depth > most_cryptomatte_depth)
+        throw InputError("the depth of its mattes is out of range");
+    for (const nlohmann::json& layer : json.at("layers"))
+        c.layers.push_back({layer.at("name"), layer.at("names").get<std::vector<std::string>>()});
+    for (const CryptomatteLayer& layer : c.layers)
+        if (layer.names.size() != c.layers[0].names.size())
+            throw InputError("its mattes are not of the same shapes");
+    return c;
+}
+
 template<class Enum>
 Enum number_of(const nlohmann::json& json, const char* name, Enum last) {
     const int value = whole_number(json.at(name));
@@ -77,7 +97,8 @@ void check(const FilmContent& c) {
 } // namespace
 
 FilmContent film_content(const Scene& scene, const AovPlan& aovs, const SceneFrame& frame) {
-    return {scene.film, scene.integrator.kind, scene.integrator.second_moment, aovs, frame};
+    return {scene.film, scene.integrator.kind, scene.integrator.second_moment, aovs,
+            frame,      cryptomatte_of(scene)};
 }
 
 nlohmann::json to_json(const FilmContent& c) {
@@ -91,6 +112,7 @@ nlohmann::json to_json(const FilmContent& c) {
             {"layers", layers_json(c.aovs.layers, aov_kinds)},
             {"layer_channels", c.aovs.channels},
             {"light_groups", groups_json(c.aovs.light_groups)},
+            {"cryptomatte", cryptomatte_json(c.cryptomatte)},
             {"film_layers", layers_json(c.aovs.film_layers, film_aov_kinds)},
             {"frame",
              {{"camera", to_json(c.frame.camera)},
@@ -113,6 +135,7 @@ FilmContent film_content(const nlohmann::json& json) {
     c.aovs.layers = layers_of(json.at("layers"), aov_kinds);
     for (const nlohmann::json& group : json.at("light_groups"))
         c.aovs.light_groups.push_back({group.at("name"), whole_number(group.at("channel"))});
+    c.cryptomatte = cryptomatte_from(json.at("cryptomatte"));
     c.aovs.channels = whole_number(json.at("layer_channels"));
     c.aovs.film_layers = layers_of(json.at("film_layers"), film_aov_kinds);
     const nlohmann::json& frame = json.at("frame");

@@ -131,6 +131,7 @@ Image film_image(const FilmSums& sums, const FilmContent& content) {
             add_channel(image, fmt::format("second_moment.{}", suffixes[c]),
                         scaled(reader.means(content.square_channel() + c), unit * unit));
     }
+    add_cryptomatte(sums, content.cryptomatte, image);
     return image;
 }
 

@@ -38,8 +38,8 @@ void check_twice(const std::vector<AovLayer>& layers, const AovRequest& request,
 void add_light_groups(const Scene& scene, AovPlan& plan) {
     for (const LightGroup& group : scene.integrator.light_groups) {
         const std::string name = "light." + group.name;
-        for (const AovLayer& layer : plan.layers)
-            if (layer.name == name)
+        for (const AovRequest& aov : scene.integrator.aovs)
+            if (aov.name == name)
                 throw InputError(fmt::format("--light-group: the scene has a layer '{}'", name));
         plan.light_groups.push_back({name, plan.channels});
         plan.channels += 3;

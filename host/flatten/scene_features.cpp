@@ -259,6 +259,7 @@ void decide_film(const Scene& scene, FeatureDecisions& out) {
     decide_by_request(out, feature_view_depth, integrator.kind == IntegratorKind::depth);
     decide_by_request(out, feature_moments, integrator.second_moment);
     decide_by_count(out, feature_variance, integrator.aovs, "layers", is_film_aov);
+    decide_by_request(out, feature_shape_ids, integrator.cryptomatte.asked());
     decide_by_request(out, feature_light_groups, !integrator.light_groups.empty());
     decide_by_count(out, feature_aovs, integrator.aovs, "layers",
                     [](const AovRequest& a) { return !is_film_aov(a); });

@@ -4,6 +4,7 @@
 #include "host/clock.h"
 #include "host/error.h"
 #include "host/film/tiled_film.h"
+#include "host/film/wave_hits.h"
 #include "host/flatten/scene_features.h"
 #include "host/render/session.h"
 #include "host/waves/device_waves.h"
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 namespace parhelion {
@@ -65,10 +67,13 @@ DeviceWaves compiled(RenderDevice& device, const DeviceScene& flat, const Render
 /// The film of a device's buffers.
 class DeviceFilm : public FilmSums {
 public:
-    DeviceFilm(const DeviceWaves& waves, const FilmLayout& layout, const Film& crop)
-        : views_(waves.film_views<const cl_uint>()), film_(values(views_), layout, crop) {}
+    DeviceFilm(const DeviceWaves& waves, const FilmLayout& layout, const Film& crop,
+               const CoverageTiles* coverage)
+        : views_(waves.film_views<const cl_uint>()), film_(values(views_), layout, crop, coverage) {
+    }
 
     void add_row(int channel, int y, SumRow& row) const override { film_.add_row(channel, y, row); }
+    void add_coverage(int y, ShapeWeights& row) const override { film_.add_coverage(y, row); }
 
     template<class Word>
     static std::vector<std::span<Word>> values(const std::deque<BufferView<Word>>& views) {
@@ -96,21 +101,26 @@ public:
         waves_.allocate(sizes_, params);
         loop_ = wave_loop(sizes_, params, scene_.features.on());
         crop_ = scene.film;
+        if (sizes_.film.shape_ids)
+            coverage_.emplace(sizes_.film.window, crop_, scene_.filter_values);
         checked_ = checked;
     }
 
     void trace(WaveSchedule& schedule, const std::function<void()>& on_wave) override {
-        trace_waves(std::span(waves_.streams()), schedule, loop_, on_wave);
+        trace_waves(std::span(waves_.streams()), schedule, loop_, on_wave,
+                    [&](WaveStream& stream, const Wave& wave) { gather_hits(stream, wave); });
         if (checked_) check_bounds();
     }
     WaveLimits wave_limits() const override { return sizes_.wave_limits(); }
 
     std::unique_ptr<FilmSums> film() override {
-        return std::make_unique<DeviceFilm>(waves_, sizes_.film, crop_);
+        return std::make_unique<DeviceFilm>(waves_, sizes_.film, crop_,
+                                            coverage_ ? &*coverage_ : nullptr);
     }
     void fill_film(const FilmSums& sums) override {
         const auto views = waves_.film_views<cl_uint>();
         put_sums(sums, sizes_.film, crop_, DeviceFilm::values(views));
+        if (coverage_) coverage_->add_film(sums);
     }
 
     TraceCounts counts() override { return counts_of(waves_.read_statistics()); }
@@ -122,6 +132,12 @@ public:
     }
 
 private:
+    void gather_hits(WaveStream& stream, const Wave& wave) {
+        if (!coverage_) return;
+        const std::size_t slots = std::size_t{BLOCK_PIXELS} * wave.blocks() * wave.samples();
+        add_hits<float>(*coverage_, wave, sizes_.film,
+                        [&](int channel) { return stream.read_results(channel, slots); });
+    }
     void check_bounds() {
         for (WaveStream& stream : waves_.streams())
             if (const char* buffer = stream.read_outside())
@@ -134,6 +150,7 @@ private:
     WorkSizes sizes_;
     WaveLoop loop_{};
     Film crop_;
+    std::optional<CoverageTiles> coverage_; // where it is asked for
     bool checked_ = false;
 };
 

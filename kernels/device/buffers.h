@@ -99,10 +99,12 @@ LAYOUT(WaveBlock, 8);
 #define SPREAD_CHANNELS(X) X(weight) X(first_r) X(first_g) X(first_b) X(second_r) X(second_g) X(second_b)
 
 // Channels of results and film, behind each other: RESULT_FIELDS, `aovs` channels of AOVs, light groups among them; then of results, if
-// HAS(filter_splatting), the sample's offset from the centre of its pixel, x and y; of the film, if HAS(moments), the squares of
+// HAS(filter_splatting), the sample's offset from the centre of its pixel, x and y, and if HAS(shape_ids), 1 more than the shape that
+// its camera ray has met, 0 for none; of the film, if HAS(moments), the squares of
 // r, g, b, and if HAS(variance), SPREAD_CHANNELS.
 #define AOV_CHANNEL(channel) (result_field_count + (channel))
-#define RESULT_CHANNELS(aovs, splatted) (AOV_CHANNEL(aovs) + ((splatted) ? 2 : 0))
+#define SHAPE_CHANNEL(aovs, splatted) (AOV_CHANNEL(aovs) + ((splatted) ? 2 : 0))
+#define RESULT_CHANNELS(aovs, splatted, shape_ids) (SHAPE_CHANNEL(aovs, splatted) + ((shape_ids) ? 1 : 0))
 #define SQUARE_CHANNEL(aovs) AOV_CHANNEL(aovs)
 #define SPREAD_CHANNEL(aovs, moments) (SQUARE_CHANNEL(aovs) + ((moments) ? 3 : 0))
 #define FILM_CHANNELS(aovs, moments, variance) (SPREAD_CHANNEL(aovs, moments) + ((variance) ? (int)spread_channel_count : 0))

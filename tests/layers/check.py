@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """check.py CHECK ARGS...: looks at OpenEXR files by OpenEXR's own module; an error says what is wrong."""
+import json
 import sys
 
 import numpy
@@ -69,5 +70,92 @@ def groups(name, plain, *wanted):
         require(off.max() < 16 * 2.0**-24, f"{color}: the sum of groups is off by {off.max()}")
 
 
+def float_id(name):
+    """As Cryptomatte's specification has it, of a hash that is not ours; None where there is none."""
+    try:
+        import mmh3
+    except ImportError:
+        return None
+    bits = mmh3.hash(name.encode(), 0, signed=False)
+    if bits >> 23 & 255 in (0, 255):
+        bits ^= 1 << 23
+    return bits
+
+
+def check_header(name, layer, names):
+    """One layer of that name, with a manifest of at least these names and their hashes."""
+    found = {}
+    for key, value in header(name).items():
+        if key.startswith("cryptomatte/"):
+            _, key, what = key.split("/", 2)
+            found.setdefault(key, {})[what] = value.decode() if isinstance(value, bytes) else value
+    (key, about), = [(k, a) for k, a in found.items() if a["name"] == layer]
+    require(about["hash"] == "MurmurHash3_32" and about["conversion"] == "uint32_to_float32", str(about))
+    manifest = json.loads(about["manifest"])
+    require(set(names) <= manifest.keys(), f"manifest {manifest}")
+    if float_id(layer) is not None:
+        require(key == f"{float_id(layer):08x}"[:7], f"key {key}")
+        for of_name, bits in manifest.items():
+            require(bits == f"{float_id(of_name):08x}", f"{of_name} is {bits}")
+    return {int(bits, 16): of_name for of_name, bits in manifest.items()}
+
+
+def ranks(layers, layer):
+    """Of each rank the bits of ids, and the shares."""
+    for k in range(3):
+        for of_id, of_share in ("RG", "BA"):
+            kind, ids = layers[f"{layer}{k:02}.{of_id}"]
+            require(kind == "FLOAT", f"{layer}{k:02} is {kind}")
+            yield ids.view(numpy.uint32), layers[f"{layer}{k:02}.{of_share}"][1].astype(numpy.float64)
+
+
+def mattes(name, rfilter, *shapes):
+    """Mattes by name: shares of shapes make the mean of their numbers, and those of materials are sums of them."""
+    layers = channels(name)
+    named = check_header(name, "CryptoObject", shapes)
+    materials = check_header(name, "CryptoMaterial", ("paint", "default", "tin"))
+    of_shape = {shape: 0.0 for shape in shapes}
+    before = numpy.inf
+    for ids, shares in ranks(layers, "CryptoObject"):
+        require(set(ids.tolist()) <= named.keys() | {0}, "an id that is in no manifest")
+        require(((ids == 0) == (shares == 0)).all() and (shares >= 0).all() and (shares <= before).all(), "ranks")
+        before = shares
+        for bits, shape in named.items():
+            of_shape[shape] = of_shape[shape] + numpy.where(ids == bits, shares, 0)
+    require(all((matte > 0).any() for matte in of_shape.values()), "a shape is nowhere")
+    paint = sum(numpy.where(ids == bits, shares, 0) for ids, shares in ranks(layers, "CryptoMaterial")
+                for bits, of_name in materials.items() if of_name == "paint")
+    if rfilter != "lanczos":  # whose lobes below 0 have no rank
+        mean = sum((k + 1) * of_shape[shape] for k, shape in enumerate(shapes))
+        off = numpy.abs(mean - layers["shape_index.I"][1]).max()
+        require(off < 1e-5, f"the mean of shape numbers is off by {off}")
+        require(numpy.abs(paint - of_shape[shapes[0]] - of_shape[shapes[1]]).max() < 1e-6, "paint is no sum")
+    by_another_program(name, of_shape)
+
+
+def by_another_program(name, of_shape):
+    try:
+        import cryptomatte_api
+    except ImportError:
+        return
+    (reader,) = [m for m in cryptomatte_api.Cryptomatte.load(name, load_preview=False)
+                 if m.metadata().name() == "CryptoObject"]
+    for shape, matte in of_shape.items():
+        theirs = numpy.asarray(reader.mask(shape)).reshape(-1)
+        require(numpy.abs(theirs - matte).max() < 1e-6, f"the matte of {shape} is another one")
+
+
+def crop(name, whole, x, y, width, height):
+    """A crop has the values of the whole there."""
+    ours, all_of_it = channels(name), channels(whole)
+    full = header(whole)["dataWindow"]
+    columns = full.max.x - full.min.x + 1
+    x, y, width, height = int(x), int(y), int(width), int(height)
+    for channel, (_, values) in ours.items():
+        there = all_of_it[channel][1].reshape(-1, columns)[y:y + height, x:x + width]
+        require(values.reshape(height, width).tobytes() == there.tobytes(), f"{channel} differs")
+
+
 if __name__ == "__main__":
-    {"form": form, "groups": groups, "packed": packed, "same_values": same_values}[sys.argv[1]](*sys.argv[2:])
+    checks = (crop, form, groups, mattes, packed, same_values)
+    {check.__name__: check for check in checks}[sys.argv[1]](*sys.argv[2:])

@@ -88,6 +88,8 @@ void SceneBuilder::add_shape(const Object& object) {
     Shape shape{object.id, object.plugin, object.location, {}, {}, {}, {}};
     if (shape.id.empty()) shape.id = "shape " + std::to_string(scene_.shapes.size() + 1);
     ShapeParts parts = shape_parts(document_, object);
+    shape.bsdf_id = !parts.bsdf ? "default" : parts.bsdf->id;
+    if (shape.bsdf_id.empty()) shape.bsdf_id = shape.id + ".bsdf";
     bool there = false;
     attempt([&] {
         shape.geometry = read_shape(document_, object, scene_.notes);
