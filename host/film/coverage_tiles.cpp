@@ -92,20 +92,20 @@ void CoverageTiles::add_block(const WaveBlock& block, int samples, const WaveHit
 }
 
 template<class Real>
-void CoverageTiles::add_wave(const Wave& wave, const WaveHits<Real>& hits) {
-    const std::vector<WaveBlock> blocks = wave_blocks(wave);
-    const std::size_t slots = static_cast<std::size_t>(wave.samples()) * BLOCK_PIXELS;
+void CoverageTiles::add_wave(std::span<const WaveBlock> blocks, int samples,
+                             const WaveHits<Real>& hits) {
+    const std::size_t slots = static_cast<std::size_t>(samples) * BLOCK_PIXELS;
     parallel_for(blocks.size(), [&](std::size_t n) {
         const auto part = [&](std::span<const Real> of) {
             return of.empty() ? of : of.subspan(n * slots, slots);
         };
         add_block<Real>(
-            blocks[n], wave.samples(),
+            blocks[n], samples,
             {part(hits.shape), part(hits.weight), part(hits.offset_x), part(hits.offset_y)});
     });
 }
-template void CoverageTiles::add_wave(const Wave&, const WaveHits<float>&);
-template void CoverageTiles::add_wave(const Wave&, const WaveHits<double>&);
+template void CoverageTiles::add_wave(std::span<const WaveBlock>, int, const WaveHits<float>&);
+template void CoverageTiles::add_wave(std::span<const WaveBlock>, int, const WaveHits<double>&);
 
 void CoverageTiles::add_row(int y, ShapeWeights& row) const {
     const int side = TILE_SIDE(window_.reach);

@@ -4,7 +4,6 @@
 #include "host/film/coverage.h"
 #include "host/film/film_layout.h"
 #include "host/film/film_sums.h"
-#include "host/waves/wave.h"
 
 #include <span>
 #include <vector>
@@ -24,9 +23,10 @@ public:
     /// `filter`: the values of the reconstruction filter (make_filter_values).
     CoverageTiles(const SampleWindow& window, const Film& crop, std::vector<float> filter);
 
-    /// Adds a wave. Several may be added at once, if they have no block in common.
+    /// Adds a wave of as many samples of each of its blocks. Several may be added at once, if they
+    /// have no block in common.
     template<class Real>
-    void add_wave(const Wave& wave, const WaveHits<Real>& hits);
+    void add_wave(std::span<const WaveBlock> blocks, int samples, const WaveHits<Real>& hits);
 
     /// Appends what row `y` of the crop has.
     void add_row(int y, ShapeWeights& row) const;

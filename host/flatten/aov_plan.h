@@ -51,6 +51,8 @@ struct AovPlan {
 
 /// Whether an AOV is what the film itself tells of a pixel's samples (FILM_AOVS).
 bool is_film_aov(const AovRequest& request);
+/// Or else what is seen first.
+inline bool is_first_hit_aov(const AovRequest& request) { return !is_film_aov(request); }
 
 /// Lays out the AOVs of a scene's integrator. Throws InputError for a kind that there is not,
 /// naming those there are, and for a variance of one sample.

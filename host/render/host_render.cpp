@@ -2,7 +2,7 @@
 #include "host/render/host_render.h"
 
 #include "host/film/tiled_film.h"
-#include "host/film/wave_hits.h"
+#include "host/render/wave_hits.h"
 #include "host/twin/twin_waves.h"
 #include "host/waves/render_params.h"
 #include "host/waves/wavefront.h"

@@ -51,10 +51,9 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
             d.sample = sel_emitter(
                 sky, daylight_chosen(w.scene, light, w.params->sky_texture, r, sky), d.sample);
     }
-    if (HAS(textured_lights)) {
-        vec3 color = sampled_light_color(w.scene, v.path, pick.row, d.sample.q, reached);
-        d.sample.weight = mul3(d.sample.weight, color);
-    }
+    if (HAS(textured_lights))
+        d.sample.weight = mul3(d.sample.weight,
+                               sampled_light_color(w.scene, v.path, pick.row, d.sample.q, reached));
     if (HAS(projected_textures)) {
         vec3 color = projected_color(w.scene, light, pick.row, d.sample, reached);
         d.sample.weight = mul3(d.sample.weight, color);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/film/coverage_tiles.h"
+#include "host/waves/wave.h"
 
 namespace parhelion {
 
@@ -15,7 +16,7 @@ void add_hits(CoverageTiles& coverage, const Wave& wave, const FilmLayout& layou
     auto weight = read(static_cast<int>(result_weight));
     decltype(weight) x{}, y{};
     if (splatted) x = read(offset), y = read(offset + 1);
-    coverage.add_wave<Real>(wave, {shape, weight, x, y});
+    coverage.add_wave<Real>(wave_blocks(wave), wave.samples(), {shape, weight, x, y});
 }
 
 } // namespace parhelion
