@@ -118,7 +118,7 @@ void CoverageTiles::add_row(int y, ShapeWeights& row) const {
             const int cell_row = from_y - BLOCK_SIDE * tile_row + window_.reach;
             const int left = window_.block_x + BLOCK_SIDE * column - window_.reach - crop_.crop_x;
             for (const ShapeWeight& w :
-                 tiles_[static_cast<std::size_t>(tile_row * window_.blocks_x + column)]) {
+                 tiles_[static_cast<std::size_t>(tile_row) * window_.blocks_x + column]) {
                 const int x = left + w.place % side;
                 if (w.place / side == cell_row && x >= 0 && x < crop_.crop_width)
                     row.push_back({x, w.shape, w.weight});

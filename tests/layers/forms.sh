@@ -1,4 +1,6 @@
-# Components and compressions: what a file is written as, what it keeps, what parts of a render make of it.
+#!/bin/bash
+# Components and compressions: what a file is written as, what it keeps, what parts of a render make of it. Read by tests/layers/run.
+# shellcheck disable=SC2154 # what is the reader's
 cat >scene.xml <<'XML'
 <scene version="3.0.0">
     <integrator type="path"><integer name="max_depth" value="4"/></integrator>
@@ -8,7 +10,7 @@ cat >scene.xml <<'XML'
     <emitter type="constant"/>
 </scene>
 XML
-scene=(scene.xml --spp 20 --aov albedo,samples,depth --quiet)
+scene=(scene.xml --spp 20 --aov "albedo,samples,depth" --quiet)
 
 expect 0 render "${scene[@]}" -o plain.exr
 for part in 1 2 3; do

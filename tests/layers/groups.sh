@@ -1,4 +1,6 @@
-# Light groups: as another program reads them, they add up to the image; parts of a render make the same bytes.
+#!/bin/bash
+# Light groups: as another program reads them, they add up to the image; parts of a render make the same bytes. Read by tests/layers/run.
+# shellcheck disable=SC2154 # what is the reader's
 cat >lamps.xml <<'XML'
 <scene version="3.0.0">
     <integrator type="path"><integer name="max_depth" value="5"/></integrator>

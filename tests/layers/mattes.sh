@@ -1,4 +1,6 @@
-# Cryptomatte: as other programs read it, with hashes that are not ours; parts of a render make the same bytes.
+#!/bin/bash
+# Cryptomatte: as other programs read it, with hashes that are not ours; parts of a render make the same bytes. Read by tests/layers/run.
+# shellcheck disable=SC2154 # what is the reader's
 cat >mattes.xml <<'XML'
 <scene version="3.0.0">
     <integrator type="path"><integer name="max_depth" value="3"/></integrator>
@@ -15,7 +17,7 @@ cat >mattes.xml <<'XML'
 </scene>
 XML
 for filter in box gaussian lanczos; do
-    scene=(mattes.xml -D "filter=$filter" --quiet --cryptomatte object,material --aov shape_index)
+    scene=(mattes.xml -D "filter=$filter" --quiet --cryptomatte "object,material" --aov shape_index)
     mattes=("${scene[@]}" --spp 40)
     expect 0 render "${mattes[@]}" -o whole.exr --force
     read_by_others mattes whole.exr "$filter" ball 'bäll/2' pole far

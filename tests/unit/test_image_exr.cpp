@@ -210,6 +210,7 @@ TEST_CASE("EXR: every compression, of which those that lose something lose what 
         CHECK(is_written_as(file, options));
         const Image back = read_exr(file);
         std::vector<float> halves;
+        halves.reserve(ramp.size());
         for (const float v : ramp)
             halves.push_back(Imath::half(v));
         const auto kept = [&](const char* name, const std::vector<float>& values) {
