@@ -78,6 +78,10 @@ FN void clear_results(Results results, RenderParams params, int slot, Real weigh
         STORE_REAL(result_channel(results, channels) + slot, offset.x);
         STORE_REAL(result_channel(results, channels + 1) + slot, offset.y);
     }
+    if (HAS(shape_ids)) {
+        int shape = SHAPE_CHANNEL(params.aov_channels, HAS(filter_splatting));
+        STORE_REAL(result_channel(results, shape) + slot, (Real)0.f);
+    }
 }
 
 FN Path camera_path(CameraRay ray, Int slot, Int pixel, Int sample) {

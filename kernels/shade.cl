@@ -6,9 +6,9 @@
 #include "device/shade_scatter.h"
 #include "device/shade_see.h"
 
-/// Reads: path state, scene. Writes: results (emission, alpha, AOVs at the first vertex), counts,
-/// path and shadow state. Pushes: a shadow ray for each vertex with light to receive, a path for
-/// each that goes on; both packed in place.
+/// Reads: path state, scene. Writes: results (emission, alpha, AOVs and shape at the first vertex),
+/// counts, path and shadow state. Pushes: a shadow ray for each vertex with light to receive, a
+/// path for each that goes on; both packed in place.
 kernel void shade(KERNEL_PARAMETERS) {
     CHECK_BOUNDS();
     int segment = get_global_id(0);
@@ -22,6 +22,7 @@ kernel void shade(KERNEL_PARAMETERS) {
         see(w, v);
         Shading s = shading_at(w, v);
         if (HAS(aovs) && depth == 0) write_aovs(w, v, s);
+        if (HAS(shape_ids) && depth == 0) write_shape(w, v);
         s = pass_or_cover(w, v, s);
         if (depth + 1 >= params.max_depth) continue;
         s = turned_to_viewer(w, v, s);

@@ -29,8 +29,8 @@ FN Mask shadow_packet(global const BvhNode* nodes, global const BvhLine* leaves,
     return hit.primitive != NO_PRIMITIVE;
 }
 
-/// Reads: shadow state. Writes: results (r, g, b of the rays' own path slots; no other work-item
-/// has them), shadow state (blocked, whatever it is).
+/// Reads: shadow state. Writes: results (r, g, b, and those of groups, of the rays' own path slots;
+/// no other work-item has them), shadow state (blocked, whatever it is).
 kernel void shadow(KERNEL_PARAMETERS) {
     CHECK_BOUNDS();
     int segment = get_global_id(0);
@@ -53,8 +53,11 @@ kernel void shadow(KERNEL_PARAMETERS) {
             blocked = blocked | !(share > R(0.));
             store_arriving(place, light, blocked);
         }
-        add_result3(results_of(results, params), result_r, shadow_at_slot(place), light,
-                    maskBits(active & !blocked));
+        uint arrives = maskBits(active & !blocked);
+        add_result3(results_of(results, params), result_r, shadow_at_slot(place), light, arrives);
+        if (HAS(light_groups))
+            add_result3_by_lane(results_of(results, params), shadow_at_group(place),
+                                shadow_at_slot(place), light, arrives);
     }
     AT(global ulong, statistics, statistic_count * segment + statistic_shadow_rays) +=
         (ulong)(end - base);

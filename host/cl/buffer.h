@@ -119,6 +119,12 @@ public:
     void read(const cl::CommandQueue& queue, T* values) const {
         if (count_ > 0) queue.enqueueReadBuffer(handle_, CL_TRUE, 0, bytes(), values);
     }
+    /// `count` values from the `first` on.
+    void read(const cl::CommandQueue& queue, std::size_t first, std::size_t count,
+              T* values) const {
+        if (count > 0)
+            queue.enqueueReadBuffer(handle_, CL_TRUE, first * sizeof(T), count * sizeof(T), values);
+    }
 
     const cl::Buffer& handle() const { return handle_; }
     std::size_t count() const { return count_; }

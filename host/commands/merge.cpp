@@ -24,6 +24,7 @@ void check_files(const MergeCommand& command) {
     if (command.exposure &&
         (is_film_file(command.output) || image_format(command.output) != ImageFormat::png))
         throw InputError("--exposure: is for .png previews; an .exr holds linear values");
+    check_picture_form(command.form, command.output);
     std::vector<UsedFile> inputs;
     for (const std::string& part : command.parts)
         inputs.push_back({"a part,", part});
@@ -54,9 +55,9 @@ void write_merged(const MergeCommand& command, const FilmHeader& header, const F
         write_film(command.output, header, sums, existing_files(command.force));
         return;
     }
-    // What does not fit is told.
-    static_cast<void>(write_picture(command.output, header, sums, command.exposure.value_or(0.0),
-                                    existing_files(command.force)));
+    WriteOptions options{command.exposure.value_or(0.0), exr_options(command.form, header.content)};
+    options.exr.existing = existing_files(command.force);
+    static_cast<void>(write_picture(command.output, header, sums, options)); // it is told
 }
 
 } // namespace
@@ -87,7 +88,7 @@ int run_merge(const MergeCommand& command) {
 
 Subcommand merge_subcommand() {
     auto c = std::make_shared<MergeCommand>();
-    return {
+    Subcommand merge{
         .name = "merge",
         .summary = "Make one picture of the parts that `render --shard` wrote",
         .examples = "Examples:\n"
@@ -116,6 +117,9 @@ Subcommand merge_subcommand() {
             },
         .run = [c] { return run_merge(*c); },
     };
+    for (Option& option : picture_form_options(c->form))
+        merge.options.push_back(std::move(option));
+    return merge;
 }
 
 } // namespace parhelion

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/commands/command_line.h"
+#include "host/commands/picture_form.h"
 
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@ struct MergeCommand {
     std::vector<std::string> parts;
     std::string output = "out.exr";
     std::optional<double> exposure;
+    PictureForm form;
     bool partial = false, force = false, quiet = false;
 };
 

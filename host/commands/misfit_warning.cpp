@@ -34,6 +34,13 @@ Stored stored(const std::string& file, ComponentFormat component) {
     return {"float32", "kept", ""};
 }
 
+/// The component of the first channel that has values out of its range; of the first, if none has.
+ComponentFormat narrowest(const ExrOptions& written, const std::vector<Misfits>& channels) {
+    for (const Misfits& m : channels)
+        if (m.out_of_range > 0) return written.component_of(m.channel);
+    return channels.empty() ? written.component : written.component_of(channels[0].channel);
+}
+
 std::string place(const Misfits& m) {
     std::string value = std::isnan(m.value) ? "no number" : fmt::format("{:g}", m.value);
     return fmt::format("{}: {} values, the first at pixel {},{}: {}", m.channel, m.count(), m.x,
@@ -42,12 +49,13 @@ std::string place(const Misfits& m) {
 
 } // namespace
 
-std::string misfit_warning(const std::string& file, const Film& film, const RenderReport& report) {
+std::string misfit_warning(const std::string& file, const ExrOptions& written,
+                           const RenderReport& report) {
     const std::vector<Misfits>& all = report.misfits;
     std::uint64_t not_finite = 0, out_of_range = 0;
     for (const Misfits& m : all)
         not_finite += m.not_finite, out_of_range += m.out_of_range;
-    Stored as = stored(file, film.component_format);
+    Stored as = stored(file, narrowest(written, all));
     std::string text;
     if (not_finite > 0)
         text += fmt::format("warning: {}: {} values of the image are not finite ({}):\n", file,

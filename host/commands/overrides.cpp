@@ -1,9 +1,11 @@
 // Command-line values that replace the scene's.
+#include "host/commands/light_group_options.h"
 #include "host/commands/render.h"
 #include "host/flatten/filter_table.h"
 #include "host/scene/limits.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <charconv>
@@ -81,6 +83,18 @@ AovRequest aov_request(const std::string& name) {
     return {name, name == "normals" ? "sh_normal" : name, {"--aov", 0}};
 }
 
+void set_cryptomatte(const RenderCommand& command, CryptomatteRequest& request) {
+    for (const std::string& name : command.cryptomatte) {
+        if (name != cryptomatte_names[0] && name != cryptomatte_names[1])
+            throw InputError(fmt::format("--cryptomatte '{}': there are {}", name,
+                                         fmt::join(cryptomatte_names, ", ")));
+        bool& asked = name == cryptomatte_names[0] ? request.objects : request.materials;
+        if (asked) throw InputError(fmt::format("--cryptomatte '{}': is asked for twice", name));
+        asked = true;
+    }
+    if (command.cryptomatte_depth) request.depth = *command.cryptomatte_depth;
+}
+
 void check_replicates(const Sampler& sampler) {
     if (sampler.replicates > 1 && sampler.pattern == SamplePattern::independent)
         throw InputError(fmt::format(
@@ -155,6 +169,10 @@ void apply_overrides(const RenderCommand& command, Scene& scene) {
     if (!command.energy_compensation) leave_out_energy_compensation(scene);
     for (const std::string& name : command.aovs)
         scene.integrator.aovs.push_back(aov_request(name));
+    set_cryptomatte(command, scene.integrator.cryptomatte);
+    if (!command.light_groups.empty() || command.group_by_light)
+        scene.integrator.light_groups =
+            light_groups(command.light_groups, command.group_by_light, scene);
 }
 
 std::array<int, 2> parse_pixel(const std::string& text, const Film& film) {

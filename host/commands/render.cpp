@@ -73,7 +73,9 @@ RenderKey key_of(const RenderCommand& command, const Scene& scene, SharedWork& w
 
 std::optional<Existing> existing_of(const RenderCommand& command, const Scene& scene,
                                     const RenderKey& key) {
-    return check_left_over(command, render_digest(key, scene.sampler.samples_per_pixel));
+    const FilmContent content = film_content(scene, plan_aovs(scene), SceneFrame{});
+    return check_left_over(command, render_digest(key, scene.sampler.samples_per_pixel),
+                           exr_options(command.form, content));
 }
 
 RenderDevice& device_of(const RenderCommand& command, SharedWork& work) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/commands/command_line.h"
+#include "host/commands/picture_form.h"
 #include "host/image/distinct_files.h"
 #include "host/render/device_render.h"
 #include "host/render/shard.h"
@@ -21,11 +22,16 @@ struct RenderCommand {
     std::string progress = "auto";
     std::vector<std::string> definitions; ///< name=value
     std::vector<std::string> aovs;
+    std::vector<std::string> cryptomatte; ///< object, material
+    std::optional<int> cryptomatte_depth;
+    std::vector<std::string> light_groups; ///< NAME=ID,ID or ID
+    bool group_by_light = false;           ///< every emitter that has an id
     std::optional<std::string> integrator, size, crop, sampler, filter_method, precision,
         shading_normals;
     std::optional<int> samples, replicates, max_depth, rr_depth, sensor;
     std::optional<std::uint32_t> seed;
     std::optional<double> exposure;
+    PictureForm form;
     std::optional<std::string> pixel; ///< X,Y of the sample to trace
     std::optional<int> sample;        ///< and its number
     bool trace = false;
@@ -53,6 +59,9 @@ std::vector<UsedFile> files_of(const Scene& scene);
 /// Replaces what the scene file says by what the command line says. Throws InputError naming the
 /// option.
 void apply_overrides(const RenderCommand& command, Scene& scene);
+
+/// What --cryptomatte accepts.
+inline constexpr std::array cryptomatte_names{"object", "material"};
 
 /// What --precision accepts.
 inline constexpr std::array precision_names{"single", "double"};

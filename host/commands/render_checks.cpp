@@ -62,6 +62,11 @@ void check_command(const RenderCommand& command) {
     if (command.skip_existing && png)
         throw InputError("--skip-existing: a .png does not say which render it is of (accepted: an "
                          ".exr, a .film)");
+    if (!command.cryptomatte.empty() && png)
+        throw InputError("--cryptomatte: a .png preview holds no layers; write an .exr");
+    if ((!command.light_groups.empty() || command.group_by_light) && png)
+        throw InputError("--light-group: a .png preview holds no layers; write an .exr");
+    check_picture_form(command.form, command.output);
     check_split(command.options);
     Progress::mode_of(command.progress, command.quiet);
     in_double(command);

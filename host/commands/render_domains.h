@@ -20,6 +20,8 @@ inline constexpr Domain threads_domain = whole_number(0, 1024);
 /// Powers of two: samples take turns by the last bits of their number.
 inline constexpr Domain replicates_domain{
     .lowest = 1, .highest = 8, .whole = true, .only = {1, 2, 4, 8}, .only_count = 4};
+/// As the conventions of Cryptomatte number their channels, two ranks each.
+inline constexpr Domain cryptomatte_depth_domain = whole_number(1, 64);
 
 // Buffers of the largest pool have a few GB; their elements are counted in int.
 inline constexpr Domain pool_paths_domain = whole_number(BLOCK_PIXELS, 1 << 26);

@@ -117,6 +117,20 @@ std::vector<Option> light_options(RenderCommand& c) {
          &c.aovs,
          "Layers beside the image, e.g. albedo,normals,depth",
          {.delimiter = ',', .words = aov_words()}},
+        {"--light-group", &c.light_groups,
+         "NAME=ID,... (repeat for more): the light of emitters of these ids, or on shapes of these "
+         "ids, in a layer light.NAME beside the image; ID alone is a group of that name. What no "
+         "group has is light.rest: all add up to the image"},
+        {"--light-groups", &c.group_by_light,
+         "One for each emitter that has an id, or whose shape has one, and is in no other"},
+        {"--cryptomatte",
+         &c.cryptomatte,
+         "Cryptomatte layers: object (by ids of shapes), material (by ids of their bsdfs)",
+         {.delimiter = ',', .words = words_of(cryptomatte_names)}},
+        {"--cryptomatte-depth",
+         &c.cryptomatte_depth,
+         "Names that they keep of a pixel, those that cover most of it (6)",
+         {.needs = {"--cryptomatte"}, .domain = cryptomatte_depth_domain}},
         {"-D,--define", &c.definitions,
          "name=value for the scene's $name (repeat for more); of `render` also name=from:step:to"},
         {"--allow-outside", &c.allow_outside, "Let the scene name files outside its own folder"},
@@ -240,8 +254,9 @@ std::vector<Option> kernel_options(RenderCommand& c) {
 
 std::vector<Option> render_options(RenderCommand& c) {
     std::vector<Option> options = sampling_options(c);
-    for (const std::vector<Option>& more : {image_options(c), frame_options(c), part_options(c),
-                                            trace_options(c), kernel_options(c), pool_options(c)})
+    for (const std::vector<Option>& more :
+         {image_options(c), picture_form_options(c.form), frame_options(c), part_options(c),
+          trace_options(c), kernel_options(c), pool_options(c)})
         append(options, more);
     return options;
 }

@@ -5,8 +5,6 @@
 #include "host/commands/render_key.h"
 #include "host/error.h"
 #include "host/film/film_image.h"
-#include "host/image/exr.h"
-#include "host/image/write_image.h"
 #include "host/streams.h"
 #include "parhelion_version.h"
 
@@ -38,12 +36,15 @@ void check_film_output(const std::string& file, bool force) {
 
 enum class Left { other, unfinished, whole };
 
-/// What the output that is there is to the render of that digest.
-Left left_by(const RenderCommand& command, const std::string& digest) {
+/// What the output that is there is to the render of that digest: not whole where it is not as
+/// `form` says.
+Left left_by(const RenderCommand& command, const std::string& digest, const ExrOptions& form) {
     const std::string& file = command.output;
     if (!writes_film(command)) {
         if (exr_attribute(file, digest_attribute) != digest) return Left::other;
-        return exr_attribute(file, unfinished_attribute).empty() ? Left::whole : Left::unfinished;
+        const bool whole =
+            exr_attribute(file, unfinished_attribute).empty() && is_written_as(file, form);
+        return whole ? Left::whole : Left::unfinished;
     }
     try {
         const FilmFile left(file);
@@ -86,10 +87,11 @@ void check_outputs(const RenderCommand& command) {
                                         command.force || left));
 }
 
-std::optional<Existing> check_left_over(const RenderCommand& command, const std::string& digest) {
+std::optional<Existing> check_left_over(const RenderCommand& command, const std::string& digest,
+                                        const ExrOptions& form) {
     if (command.force && !command.skip_existing) return Existing::replace;
     if (!exists(command.output)) return Existing::keep;
-    switch (left_by(command, digest)) {
+    switch (left_by(command, digest, form)) {
     case Left::unfinished:
         return Existing::replace;
     case Left::whole:
@@ -122,14 +124,14 @@ bool is_film_file(const std::string& file) {
 }
 
 std::vector<Misfits> write_picture(const std::string& file, const FilmHeader& header,
-                                   const FilmSums& sums, double exposure, Existing existing) {
+                                   const FilmSums& sums, const WriteOptions& options) {
     FilmPicture image(sums, header.content);
-    image.frame().metadata = header.metadata;
+    auto& metadata = image.frame().metadata;
+    metadata.insert(metadata.begin(), header.metadata.begin(), header.metadata.end());
     add_unfinished(header, image.frame());
-    const Film& film = header.content.film;
     RenderReport report;
-    report.misfits = write_image(file, image, {exposure, {film.component_format, existing}});
-    if (!report.misfits.empty()) say(misfit_warning(file, film, report));
+    report.misfits = write_image(file, image, options);
+    if (!report.misfits.empty()) say(misfit_warning(file, options.exr, report));
     return report.misfits;
 }
 

@@ -3,6 +3,7 @@
 
 #include "host/commands/render.h"
 #include "host/film/film_file.h"
+#include "host/image/write_image.h"
 #include "host/render/session.h"
 
 namespace parhelion {
@@ -18,8 +19,10 @@ void check_outputs(const RenderCommand& command);
 /// Whether the output that is there, if there is one, may be replaced by that of the render of this
 /// digest: by --force, or because it is what such a render left when it was stopped. Nothing where
 /// a render that goes on finds its own output, whole: there is nothing to be done. Throws
-/// InputError for another.
-std::optional<Existing> check_left_over(const RenderCommand& command, const std::string& digest);
+/// InputError for another. `form`: what the output is to be written as; one that is not may be
+/// replaced.
+std::optional<Existing> check_left_over(const RenderCommand& command, const std::string& digest,
+                                        const ExrOptions& form);
 
 /// What the header of a picture says of its render.
 std::vector<std::pair<std::string, MetadataValue>>
@@ -31,6 +34,6 @@ bool is_film_file(const std::string& file);
 /// Writes the picture of a film; its header says where samples are not all there. Says and returns
 /// what the file does not hold as it is. Throws as write_image does.
 std::vector<Misfits> write_picture(const std::string& file, const FilmHeader& header,
-                                   const FilmSums& sums, double exposure, Existing existing);
+                                   const FilmSums& sums, const WriteOptions& options);
 
 } // namespace parhelion

@@ -39,6 +39,33 @@ std::vector<AovLayer> layers_of(const nlohmann::json& json,
     return layers;
 }
 
+nlohmann::json groups_json(const std::vector<LightGroupLayer>& layers) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const LightGroupLayer& layer : layers)
+        json.push_back({{"name", layer.name}, {"channel", layer.channel}});
+    return json;
+}
+
+nlohmann::json cryptomatte_json(const Cryptomatte& c) {
+    nlohmann::json layers = nlohmann::json::array();
+    for (const CryptomatteLayer& layer : c.layers)
+        layers.push_back({{"name", layer.name}, {"names", layer.names}});
+    return {{"depth", c.depth}, {"layers", layers}};
+}
+
+Cryptomatte cryptomatte_from(const nlohmann::json& json) {
+    Cryptomatte c;
+    c.depth = whole_number(json.at("depth"));
+    if (c.depth < 1 || c.depth > most_cryptomatte_depth)
+        throw InputError("the depth of its mattes is out of range");
+    for (const nlohmann::json& layer : json.at("layers"))
+        c.layers.push_back({layer.at("name"), layer.at("names").get<std::vector<std::string>>()});
+    for (const CryptomatteLayer& layer : c.layers)
+        if (layer.names.size() != c.layers[0].names.size())
+            throw InputError("its mattes are not of the same shapes");
+    return c;
+}
+
 template<class Enum>
 Enum number_of(const nlohmann::json& json, const char* name, Enum last) {
     const int value = whole_number(json.at(name));
@@ -48,7 +75,7 @@ Enum number_of(const nlohmann::json& json, const char* name, Enum last) {
 }
 
 /// Of layers, with room for more than there are.
-constexpr int most_channels = 64;
+constexpr int most_channels = 256;
 
 /// What a film may be made by.
 void check(const FilmContent& c) {
@@ -62,13 +89,16 @@ void check(const FilmContent& c) {
     for (const AovLayer& layer : c.aovs.layers)
         good = good && layer.channel >= 0 &&
                layer.channel <= c.aovs.channels - aov_kinds[layer.kind].channels;
+    for (const LightGroupLayer& layer : c.aovs.light_groups)
+        good = good && layer.channel >= 0 && layer.channel <= c.aovs.channels - 3;
     if (!good) throw InputError("its picture cannot be");
 }
 
 } // namespace
 
 FilmContent film_content(const Scene& scene, const AovPlan& aovs, const SceneFrame& frame) {
-    return {scene.film, scene.integrator.kind, scene.integrator.second_moment, aovs, frame};
+    return {scene.film, scene.integrator.kind, scene.integrator.second_moment, aovs,
+            frame,      cryptomatte_of(scene)};
 }
 
 nlohmann::json to_json(const FilmContent& c) {
@@ -81,6 +111,8 @@ nlohmann::json to_json(const FilmContent& c) {
             {"second_moment", c.second_moment},
             {"layers", layers_json(c.aovs.layers, aov_kinds)},
             {"layer_channels", c.aovs.channels},
+            {"light_groups", groups_json(c.aovs.light_groups)},
+            {"cryptomatte", cryptomatte_json(c.cryptomatte)},
             {"film_layers", layers_json(c.aovs.film_layers, film_aov_kinds)},
             {"frame",
              {{"camera", to_json(c.frame.camera)},
@@ -101,6 +133,9 @@ FilmContent film_content(const nlohmann::json& json) {
     c.kind = number_of(json, "integrator", IntegratorKind::aov);
     c.second_moment = json.at("second_moment");
     c.aovs.layers = layers_of(json.at("layers"), aov_kinds);
+    for (const nlohmann::json& group : json.at("light_groups"))
+        c.aovs.light_groups.push_back({group.at("name"), whole_number(group.at("channel"))});
+    c.cryptomatte = cryptomatte_from(json.at("cryptomatte"));
     c.aovs.channels = whole_number(json.at("layer_channels"));
     c.aovs.film_layers = layers_of(json.at("film_layers"), film_aov_kinds);
     const nlohmann::json& frame = json.at("frame");

@@ -2,6 +2,7 @@
 // once its samples are on the film.
 #pragma once
 
+#include "host/film/cryptomatte.h"
 #include "host/film/film_layout.h"
 #include "host/flatten/scene_frame.h"
 
@@ -15,6 +16,7 @@ struct FilmContent {
     bool second_moment = false;
     AovPlan aovs;
     SceneFrame frame;
+    Cryptomatte cryptomatte{};
 
     int channels() const {
         return FILM_CHANNELS(aovs.channels, second_moment, !aovs.film_layers.empty());

@@ -44,6 +44,8 @@ struct RowBegin {
 constexpr std::uint32_t end_mark =
     0xffffffff; // as y of a last row, whose checksum is how many there are
 
+constexpr std::uint16_t coverage_channel = 0xffff;
+
 std::vector<std::uint32_t> words_of(const std::string& text) {
     std::vector<std::uint32_t> words((text.size() + 3) / 4);
     std::memcpy(words.data(), text.data(), text.size());
@@ -81,6 +83,24 @@ bool put_row(std::ostream& out, int y, int channel, const SumRow& row) {
     return true;
 }
 
+static_assert(sizeof(ShapeWeight) == 4 * sizeof(std::uint32_t));
+
+/// As a row of another channel, behind which stands how many weights follow.
+bool put_coverage(std::ostream& out, int y, const FilmSums& sums) {
+    ShapeWeights row;
+    sums.add_coverage(y, row);
+    add_up(row);
+    if (row.empty()) return false;
+    std::vector<std::uint32_t> words(4 * row.size());
+    std::memcpy(words.data(), row.data(), row.size() * sizeof(ShapeWeight));
+    RowBegin begin{static_cast<std::uint32_t>(y), coverage_channel, 0, 0, 0};
+    begin.checksum = checksum_of(words, begin.place());
+    put(out, begin);
+    put(out, std::uint64_t{row.size()});
+    put_words(out, words);
+    return true;
+}
+
 void put_film(std::ostream& out, const FilmHeader& header, const FilmSums& sums) {
     const std::vector<std::uint32_t> text = words_of(to_json(header).dump());
     put(out, Begin{magic, text.size() * 4, checksum_of(text)});
@@ -93,6 +113,8 @@ void put_film(std::ostream& out, const FilmHeader& header, const FilmSums& sums)
             sums.add_row(channel, y, row);
             rows += put_row(out, y, channel, row);
         }
+    for (int y = 0; y < header.content.film.crop_height; y++)
+        rows += put_coverage(out, y, sums);
     put(out, RowBegin{end_mark, 0, 0, 0, rows});
 }
 
@@ -118,6 +140,11 @@ std::string film_bytes(const FilmHeader& header, const FilmSums& sums) {
 struct FilmFile::Row {
     std::uint64_t at = 0; ///< of the digits; 0: there are none
     std::uint8_t first = 0, count = 0;
+    std::uint64_t checksum = 0;
+};
+
+struct FilmFile::CoverageRow {
+    std::uint64_t at = 0, count = 0; ///< of weights; 0: there are none
     std::uint64_t checksum = 0;
 };
 
@@ -173,6 +200,7 @@ void FilmFile::find_rows() {
     const auto height = static_cast<std::uint32_t>(header_.content.film.crop_height);
     const auto channels = static_cast<std::size_t>(header_.content.channels());
     rows_.resize(height * channels);
+    coverage_rows_.resize(height);
     std::uint64_t at = rows_begin_, count = 0;
     for (RowBegin row{};; count++) {
         read(at, &row, sizeof row);
@@ -183,6 +211,10 @@ void FilmFile::find_rows() {
                 throw InputError("it ends otherwise");
             return;
         }
+        if (row.channel == coverage_channel) {
+            find_coverage(row.y, row.checksum, at);
+            continue;
+        }
         if (row.y >= height || row.channel >= channels || row.first + row.count > EXACT_WORDS)
             throw InputError("a row lies outside of it");
         Row& known = rows_[row.y * channels + row.channel];
@@ -190,6 +222,41 @@ void FilmFile::find_rows() {
         known = {at, row.first, row.count, row.checksum};
         at += 4 * width * row.count;
     }
+}
+
+/// Behind its beginning, up to that of the next row.
+void FilmFile::find_coverage(std::uint32_t y, std::uint64_t checksum, std::uint64_t& at) {
+    if (y >= coverage_rows_.size() || header_.content.cryptomatte.layers.empty())
+        throw InputError("a row lies outside of it");
+    CoverageRow& known = coverage_rows_[y];
+    if (known.count != 0) throw InputError("a row is there twice");
+    read(at, &known.count, sizeof known.count);
+    at += sizeof known.count;
+    if (known.count == 0 || known.count > (size_ - at) / sizeof(ShapeWeight))
+        throw InputError("it ends too early");
+    known.at = at, known.checksum = checksum;
+    at += known.count * sizeof(ShapeWeight);
+}
+
+void FilmFile::add_coverage(int y, ShapeWeights& row) const {
+    const CoverageRow& known = coverage_rows_[static_cast<std::size_t>(y)];
+    std::vector<std::uint32_t> words(4 * known.count);
+    if (words.empty()) return;
+    read(known.at, words.data(), words.size() * sizeof(std::uint32_t));
+    const RowBegin begin{static_cast<std::uint32_t>(y), coverage_channel, 0, 0, 0};
+    const std::size_t before = row.size();
+    row.resize(before + known.count);
+    std::memcpy(static_cast<void*>(&row[before]), words.data(),
+                words.size() * sizeof(std::uint32_t));
+    const auto shapes =
+        static_cast<std::int64_t>(header_.content.cryptomatte.layers[0].names.size());
+    const bool good = std::all_of(
+        row.begin() + static_cast<std::ptrdiff_t>(before), row.end(), [&](const ShapeWeight& w) {
+            return w.place >= 0 && w.place < header_.content.film.crop_width &&
+                   w.shape >= no_shape && w.shape < shapes;
+        });
+    if (checksum_of(words, begin.place()) != known.checksum || !good)
+        throw InputError(fmt::format("{}: is damaged in row {} of its picture", name_, y));
 }
 
 void FilmFile::add_row(int channel, int y, SumRow& row) const {

@@ -53,9 +53,11 @@ public:
     const FilmHeader& header() const { return header_; }
     /// Throws InputError for a row that is damaged.
     void add_row(int channel, int y, SumRow& row) const override;
+    void add_coverage(int y, ShapeWeights& row) const override;
 
 private:
     struct Row;
+    struct CoverageRow;
     void read(std::uint64_t at, void* bytes, std::size_t count) const;
     void read_header();
     void find_rows();
@@ -64,7 +66,10 @@ private:
     int descriptor_ = -1;
     std::uint64_t size_ = 0, rows_begin_ = 0;
     FilmHeader header_;
+    void find_coverage(std::uint32_t y, std::uint64_t checksum, std::uint64_t& at);
+
     std::vector<Row> rows_; ///< by pixel row and channel
+    std::vector<CoverageRow> coverage_rows_;
 };
 
 /// The sums of several films of one size.
@@ -76,6 +81,10 @@ public:
     void add_row(int channel, int y, SumRow& row) const override {
         for (const FilmSums* film : films_)
             film->add_row(channel, y, row);
+    }
+    void add_coverage(int y, ShapeWeights& row) const override {
+        for (const FilmSums* film : films_)
+            film->add_coverage(y, row);
     }
 
 private:

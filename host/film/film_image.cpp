@@ -39,28 +39,34 @@ std::vector<float> in_scene(std::vector<float> coordinates, const std::vector<fl
     return coordinates;
 }
 
-/// `unit`: what radiance 1 stands for.
-void add_main_layer(const FilmReader& film, PixelFormat format, double unit, Image& image) {
-    std::array<std::vector<float>, 3> rgb{scaled(film.means(result_r), unit),
-                                          scaled(film.means(result_g), unit),
-                                          scaled(film.means(result_b), unit)};
+/// Radiance from `channel` of the film on. `unit`: what radiance 1 stands for; `layer`: what its
+/// channels' names begin with.
+void add_radiance(const FilmReader& film, int channel, PixelFormat format, double unit,
+                  const std::string& layer, Image& image) {
+    std::array<std::vector<float>, 3> rgb{scaled(film.means(channel), unit),
+                                          scaled(film.means(channel + 1), unit),
+                                          scaled(film.means(channel + 2), unit)};
     switch (format) {
     case PixelFormat::luminance:
     case PixelFormat::luminance_alpha:
-        add_channel(image, "Y", combine(rgb, xyz_from_rgb[1]));
+        add_channel(image, layer + "Y", combine(rgb, xyz_from_rgb[1]));
         break;
     case PixelFormat::xyz:
     case PixelFormat::xyza:
-        add_channel(image, "X", combine(rgb, xyz_from_rgb[0]));
-        add_channel(image, "Y", combine(rgb, xyz_from_rgb[1]));
-        add_channel(image, "Z", combine(rgb, xyz_from_rgb[2]));
+        add_channel(image, layer + "X", combine(rgb, xyz_from_rgb[0]));
+        add_channel(image, layer + "Y", combine(rgb, xyz_from_rgb[1]));
+        add_channel(image, layer + "Z", combine(rgb, xyz_from_rgb[2]));
         break;
     case PixelFormat::rgb:
     case PixelFormat::rgba:
-        add_channel(image, "R", std::move(rgb[0]));
-        add_channel(image, "G", std::move(rgb[1]));
-        add_channel(image, "B", std::move(rgb[2]));
+        add_channel(image, layer + "R", std::move(rgb[0]));
+        add_channel(image, layer + "G", std::move(rgb[1]));
+        add_channel(image, layer + "B", std::move(rgb[2]));
     }
+}
+
+void add_main_layer(const FilmReader& film, PixelFormat format, double unit, Image& image) {
+    add_radiance(film, result_r, format, unit, "", image);
     if (format == PixelFormat::luminance_alpha || format == PixelFormat::rgba ||
         format == PixelFormat::xyza)
         add_channel(image, "A", film.means(result_alpha));
@@ -114,6 +120,9 @@ Image film_image(const FilmSums& sums, const FilmContent& content, int first_row
     add_main_layer(reader, film.pixel_format, unit, image);
     for (const AovLayer& layer : content.aovs.layers)
         add_aov_layer(reader, layer, content.frame, image);
+    for (const LightGroupLayer& layer : content.aovs.light_groups)
+        add_radiance(reader, AOV_CHANNEL(layer.channel), film.pixel_format, unit, layer.name + ".",
+                     image);
     for (const AovLayer& layer : content.aovs.film_layers)
         add_film_layer(reader, layer, content, image);
     if (content.second_moment) {
@@ -122,6 +131,7 @@ Image film_image(const FilmSums& sums, const FilmContent& content, int first_row
             add_channel(image, fmt::format("second_moment.{}", suffixes[c]),
                         scaled(reader.means(content.square_channel() + c), unit * unit));
     }
+    add_cryptomatte(sums, content.cryptomatte, first_row, image);
     return image;
 }
 

@@ -15,16 +15,19 @@ constexpr std::size_t odd_lines(std::size_t floats) { return 16 * ((floats + 15)
 struct FilmLayout {
     SampleWindow window;
     int aov_channels = 0;
-    bool moments = false; ///< squares of r, g, b
-    bool spreads = false; ///< how a pixel's samples spread
-    int band_blocks = 0;  ///< whole rows of blocks; the last band may have fewer
+    bool moments = false;   ///< squares of r, g, b
+    bool spreads = false;   ///< how a pixel's samples spread
+    bool shape_ids = false; ///< which shapes the camera's rays meet
+    int band_blocks = 0;    ///< whole rows of blocks; the last band may have fewer
 
     int blocks() const { return static_cast<int>(window.tiles()); }
     int bands() const { return (blocks() + band_blocks - 1) / band_blocks; }
     int channels() const { return FILM_CHANNELS(aov_channels, moments, spreads); }
     /// Of what samples gather before they are added up. Those that are splatted know their offsets
     /// in their pixels.
-    int result_channels() const { return RESULT_CHANNELS(aov_channels, window.reach > 0); }
+    int result_channels() const {
+        return RESULT_CHANNELS(aov_channels, window.reach > 0, shape_ids);
+    }
 
     /// Words from one digit of a sum to the next.
     std::size_t stride() const { return odd_lines(band_blocks * window.tile_cells()); }
@@ -37,7 +40,11 @@ struct FilmLayout {
 /// Of the film's crop, in one band.
 inline FilmLayout film_layout(const Film& film, const Integrator& integrator, const AovPlan& aovs) {
     const SampleWindow window = sample_window(film);
-    return {window, aovs.channels, integrator.second_moment, !aovs.film_layers.empty(),
+    return {window,
+            aovs.channels,
+            integrator.second_moment,
+            !aovs.film_layers.empty(),
+            integrator.cryptomatte.asked(),
             static_cast<int>(window.tiles())};
 }
 /// In as few bands as take no more than `bytes` each; of a row of blocks at least.

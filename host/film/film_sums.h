@@ -2,6 +2,7 @@
 // have in common.
 #pragma once
 
+#include "host/film/coverage.h"
 #include "kernels/shared/types.h"
 
 #include <array>
@@ -60,6 +61,9 @@ public:
 
     /// Adds the sums of channel `channel` over row `y`, counted in the crop, to `row`.
     virtual void add_row(int channel, int y, SumRow& row) const = 0;
+    /// Appends what shapes weigh in the pixels of row `y`, in any order; nothing where that is not
+    /// known. Places are columns of the crop.
+    virtual void add_coverage(int /*y*/, ShapeWeights& /*row*/) const {}
 };
 
 } // namespace parhelion

@@ -26,8 +26,8 @@ std::size_t tile_begin(const FilmLayout& layout, int channel, int block) {
 } // namespace
 
 TiledFilm::TiledFilm(std::vector<std::span<const std::uint32_t>> bands, const FilmLayout& layout,
-                     const Film& crop)
-    : bands_(std::move(bands)), layout_(layout), crop_(crop) {}
+                     const Film& crop, const CoverageTiles* coverage)
+    : bands_(std::move(bands)), layout_(layout), crop_(crop), coverage_(coverage) {}
 
 /// What a tile has of the row.
 void TiledFilm::add_tile(int channel, int column, int tile_row, int y, SumRow& row) const {

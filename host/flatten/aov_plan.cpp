@@ -34,13 +34,19 @@ void check_twice(const std::vector<AovLayer>& layers, const AovRequest& request,
                                          request.location.to_string(), request.name, request.kind));
 }
 
-} // namespace
-
-bool is_film_aov(const AovRequest& request) {
-    return kind_of(film_aov_kinds, request.kind) < film_aov_kind_count;
+/// Behind all AOVs.
+void add_light_groups(const Scene& scene, AovPlan& plan) {
+    for (const LightGroup& group : scene.integrator.light_groups) {
+        const std::string name = "light." + group.name;
+        for (const AovRequest& aov : scene.integrator.aovs)
+            if (aov.name == name)
+                throw InputError(fmt::format("--light-group: the scene has a layer '{}'", name));
+        plan.light_groups.push_back({name, plan.channels});
+        plan.channels += 3;
+    }
 }
 
-AovPlan plan_aovs(const Scene& scene) {
+AovPlan planned_aovs(const Scene& scene) {
     AovPlan plan;
     for (const AovRequest& request : scene.integrator.aovs) {
         bool of_film = is_film_aov(request);
@@ -62,6 +68,18 @@ AovPlan plan_aovs(const Scene& scene) {
         plan.layers.push_back({request.name, kind, plan.channels});
         plan.channels += aov_kinds[kind].channels;
     }
+    return plan;
+}
+
+} // namespace
+
+bool is_film_aov(const AovRequest& request) {
+    return kind_of(film_aov_kinds, request.kind) < film_aov_kind_count;
+}
+
+AovPlan plan_aovs(const Scene& scene) {
+    AovPlan plan = planned_aovs(scene);
+    add_light_groups(scene, plan);
     return plan;
 }
 

@@ -64,6 +64,7 @@ struct DeviceScene {
     std::vector<float> byte_values;  ///< BYTE_VALUES of them where there are texels of bytes
     std::vector<LightRecord> lights;
     std::vector<int> light_textures; ///< empty where no light has one
+    std::vector<int> light_groups;   ///< empty where none are asked for
     LightTree light_tree;            ///< empty where there is only one light
     Environment environment;
     std::vector<float> energy_tables; ///< one behind the other; materials know their first

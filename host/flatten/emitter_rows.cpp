@@ -2,6 +2,7 @@
 #include "host/flatten/emitter_rows.h"
 
 #include "host/error.h"
+#include "host/flatten/light_groups.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -185,6 +186,7 @@ std::vector<LightRow> emitter_rows(const Scene& scene, const DeviceScene& device
     for (std::size_t i = 0; i < scene.emitters.size(); i++) {
         const Emitter& emitter = scene.emitters[i];
         rows.push_back(std::visit([&](const auto& e) { return row_of(e, around); }, emitter));
+        rows.back().group = group_of(scene.integrator.light_groups, {id_of_emitter(scene, i)});
         if (const Slide* slide = slide_of(emitter))
             set_slide(rows.back(), *slide, device.emitter_textures[i], device);
     }

@@ -20,6 +20,7 @@ struct LightRow {
     double mean = 1.0;     ///< of a sky's, over all directions
     double distance = 0.0; ///< of a light without size from the box around all shapes; 0 within
     int first_primitive = -1, primitive_count = 1; ///< that shine; -1: none does
+    int group = 0;                                 ///< of the integrator's light groups
     int texture = -1;                              ///< that tells the radiance, a row; -1: none
     Rgb told{1.0};                                 ///< what its values are multiplied by
     glm::dvec3 across{0.0}; ///< of a light without size that shines through one: its frame

@@ -2,6 +2,7 @@
 #include "host/flatten/light_rows.h"
 
 #include "host/flatten/emitter_rows.h"
+#include "host/flatten/light_groups.h"
 #include "host/flatten/parallelograms.h"
 
 #include <fmt/format.h>
@@ -165,6 +166,8 @@ std::vector<LightRow> light_rows(const Scene& scene, const DeviceScene& device,
         if (shape.radiance) {
             std::vector<LightRow> more =
                 rows_of(shape, device.radiance_textures[i], device, first, notes);
+            for (LightRow& row : more)
+                row.group = group_of(scene.integrator.light_groups, {shape.emitter_id, shape.id});
             rows.insert(rows.end(), more.begin(), more.end());
         }
         first += static_cast<int>(primitive_count(shape));

@@ -2,6 +2,7 @@
 #include "host/flatten/light_table.h"
 
 #include "host/error.h"
+#include "host/flatten/aov_plan.h"
 #include "host/flatten/kind_names.h"
 #include "host/flatten/light_bounds.h"
 #include "host/flatten/light_rows.h"
@@ -89,6 +90,14 @@ void add_light_textures(const std::vector<LightRow>& rows, DeviceScene& out) {
         out.light_textures.push_back(std::bit_cast<int>(word));
 }
 
+void add_light_groups(const Scene& scene, const std::vector<LightRow>& rows, DeviceScene& out) {
+    if (scene.integrator.light_groups.empty()) return;
+    const AovPlan plan = plan_aovs(scene);
+    for (const LightRow& row : rows)
+        out.light_groups.push_back(
+            AOV_CHANNEL(plan.light_groups[static_cast<std::size_t>(row.group)].channel));
+}
+
 } // namespace
 
 void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
@@ -110,6 +119,7 @@ void add_light_table(const Scene& scene, LightChoice choice, DeviceScene& out) {
         out.lights.push_back(light_record(row, power(row) / total));
     }
     add_light_textures(rows, out);
+    add_light_groups(scene, rows, out);
     out.light_tree = build_light_tree(bounds_of(rows, total), choice);
 }
 

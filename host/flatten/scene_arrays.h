@@ -39,6 +39,7 @@ inline SceneArrays scene_arrays(const DeviceScene& scene) {
             scene.light_textures,
             scene.light_tree.nodes,
             scene.light_tree.leaves,
+            scene.light_groups,
             scene.environment.shares,
             scene.energy_tables,
             scene.filter_table,

@@ -253,14 +253,15 @@ void decide_film(const Scene& scene, FeatureDecisions& out) {
     bool box = scene.film.filter.kind == FilterKind::box;
     int reach = box ? 0 : filter_reach(scene.film);
     std::string filter = box ? "box filter" : fmt::format("a filter that reaches {} pixels", reach);
-    out.decide(feature_filter_splatting, !box && reach > 0, filter);
+    out.decide(feature_filter_splatting, reach > 0, filter);
     out.decide(feature_filter_sampling, !box && reach == 0, filter);
     decide_by_request(out, feature_view_normals, integrator.kind == IntegratorKind::normals);
     decide_by_request(out, feature_view_depth, integrator.kind == IntegratorKind::depth);
     decide_by_request(out, feature_moments, integrator.second_moment);
     decide_by_count(out, feature_variance, integrator.aovs, "layers", is_film_aov);
-    decide_by_count(out, feature_aovs, integrator.aovs, "layers",
-                    [](const AovRequest& a) { return !is_film_aov(a); });
+    decide_by_request(out, feature_shape_ids, integrator.cryptomatte.asked());
+    decide_by_request(out, feature_light_groups, !integrator.light_groups.empty());
+    decide_by_count(out, feature_aovs, integrator.aovs, "layers", is_first_hit_aov);
 }
 
 } // namespace
@@ -306,9 +307,8 @@ void decide_energy_compensation(const Scene& scene, DeviceScene& records) {
 bool traced_in_streams(std::size_t primitives) { return primitives > primitives_for_packets; }
 
 FeatureSet neutral_features() {
-    // Not anisotropy (turns the frame), materials of backs (a blend has lobes of its own there),
-    // what decides which light is counted, views and film layouts; normals, texture coordinates and
-    // the sky's light row exist only where they are needed.
+    // Not anisotropy (turns the frame), back materials (a blend has lobes there), what decides
+    // which light counts, views, film layouts; normals, uvs, a sky's row are there where needed.
     FeatureSet neutral{feature_ggx, feature_beckmann, feature_ray_streams};
     for (Feature f : {MATERIALS(FEATURE_MATERIAL) GEOMETRIES(FEATURE_GEOMETRY)})
         neutral.set(f);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "host/image/component_format.h"
+#include "host/image/exr_compression.h"
 #include "host/image/image_rows.h"
 #include "host/image/misfits.h"
 #include "host/image/output.h"
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,9 +33,18 @@ std::string exr_attribute(const std::string& file, const std::string& name);
 struct ExrOptions {
     ComponentFormat component = ComponentFormat::float32;
     Existing existing = Existing::replace; ///< what check_output has asked for
+    ExrCompression compression = ExrCompression::zip;
+    /// Of layers (layer_of) that have another than `component`.
+    std::map<std::string, ComponentFormat> layers{};
+
+    ComponentFormat component_of(const std::string& channel) const;
 };
 
-/// Writes scanlines, ZIP compressed, as linear values with Rec. 709 primaries stated. The file
+/// Whether a file's compression and the components of its channels are those; false where there is
+/// no such file.
+bool is_written_as(const std::string& file, const ExrOptions& options);
+
+/// Writes scanlines as linear values with Rec. 709 primaries stated. The file
 /// appears whole or not at all, as PendingFile says. Returns, for each channel that has some, how
 /// many values are not finite or do not fit the component format. float32 and float16 keep what is
 /// not finite; float16 stores values beyond 65504 (65519 rounds to it) as infinity, uint32 the

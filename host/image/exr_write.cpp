@@ -1,6 +1,7 @@
 // Writing an Image as an OpenEXR file, a band of rows at a time.
 #include "host/error.h"
 #include "host/image/exr.h"
+#include "host/image/exr_names.h"
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
@@ -26,18 +27,6 @@ namespace parhelion {
 
 namespace {
 
-Imf::PixelType pixel_type(ComponentFormat component) {
-    switch (component) {
-    case ComponentFormat::float16:
-        return Imf::HALF;
-    case ComponentFormat::float32:
-        return Imf::FLOAT;
-    case ComponentFormat::uint32:
-        return Imf::UINT;
-    }
-    throw std::invalid_argument("unknown component format");
-}
-
 std::size_t byte_size(Imf::PixelType type) { return type == Imf::HALF ? 2 : 4; }
 
 void check_image(const Image& image) {
@@ -62,19 +51,20 @@ void insert_metadata(Imf::Header& header, const std::string& name, const Metadat
     }
 }
 
-Imf::Header make_header(const Image& image, Imf::PixelType type) {
+Imf::Header make_header(const Image& image, const ExrOptions& options) {
     using Imath::Box2i;
     using Imath::V2i;
     const Box2i display(V2i(0, 0), V2i(image.full_width - 1, image.full_height - 1));
     const V2i corner(image.offset_x, image.offset_y);
     const Box2i data(corner, corner + V2i(image.width - 1, image.height - 1));
     Imf::Header header(display, data, 1.0f, Imath::V2f(0, 0), 1.0f, Imf::INCREASING_Y,
-                       Imf::ZIP_COMPRESSION);
+                       exr_compression(options.compression));
     // Noise hardly compresses: measured, level 4 makes files 0.3 % smaller in a tenth more time.
     header.zipCompressionLevel() = 2;
     Imf::addChromaticities(header, Imf::Chromaticities()); // the default is Rec. 709 with D65
     for (const Channel& channel : image.channels)
-        header.channels().insert(channel.name, Imf::Channel(type));
+        header.channels().insert(channel.name,
+                                 Imf::Channel(exr_component(options.component_of(channel.name))));
     for (const auto& [name, value] : image.metadata)
         insert_metadata(header, name, value);
     return header;
@@ -117,28 +107,29 @@ void convert(const Image& band, std::size_t channel, Imf::PixelType type, char* 
 }
 
 /// Converts and writes all rows; returns what did not fit, an entry a channel.
-std::vector<Misfits> write_rows(Imf::OutputFile& output, const ImageRows& image,
-                                Imf::PixelType type) {
+std::vector<Misfits> write_rows(Imf::OutputFile& output, const ImageRows& image) {
     const Image& frame = image.frame();
-    const std::size_t bytes = byte_size(type);
-    const std::size_t row_bytes = bytes * frame.width;
     const int band_rows = image.band_rows();
-    std::vector<std::vector<char>> converted(frame.channels.size(),
-                                             std::vector<char>(row_bytes * band_rows));
+    std::vector<std::vector<char>> converted;
     std::vector<Misfits> misfits;
-    misfits.reserve(frame.channels.size());
-    for (const Channel& channel : frame.channels)
+    converted.reserve(frame.channels.size()), misfits.reserve(frame.channels.size());
+    for (const Channel& channel : frame.channels) {
+        const Imf::PixelType type = output.header().channels()[channel.name].type;
+        converted.emplace_back(byte_size(type) * frame.width * band_rows);
         misfits.push_back({.channel = channel.name});
+    }
     for (int first = 0; first < frame.height; first += band_rows) {
         const int rows = std::min(band_rows, frame.height - first);
         const Image band = image.rows(first, rows);
         Imf::FrameBuffer buffer;
         for (std::size_t c = 0; c < frame.channels.size(); ++c) {
+            const std::string& name = frame.channels[c].name;
+            const Imf::PixelType type = output.header().channels()[name].type;
+            const std::size_t bytes = byte_size(type);
             convert(band, c, type, converted[c].data(), misfits[c]);
-            buffer.insert(frame.channels[c].name,
-                          Imf::Slice::Make(type, converted[c].data(),
-                                           Imath::V2i(band.offset_x, band.offset_y), band.width,
-                                           rows, bytes, row_bytes));
+            buffer.insert(name, Imf::Slice::Make(type, converted[c].data(),
+                                                 Imath::V2i(band.offset_x, band.offset_y),
+                                                 band.width, rows, bytes, bytes * band.width));
         }
         output.setFrameBuffer(buffer);
         output.writePixels(rows);
@@ -149,8 +140,8 @@ std::vector<Misfits> write_rows(Imf::OutputFile& output, const ImageRows& image,
 
 /// `file`: its name in messages.
 std::vector<Misfits> write_stream(const std::string& temporary, const std::string& file,
-                                  const ImageRows& image, Imf::PixelType type) {
-    const Imf::Header header = make_header(image.frame(), type);
+                                  const ImageRows& image, const ExrOptions& options) {
+    const Imf::Header header = make_header(image.frame(), options);
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (!stream) throw std::runtime_error(std::strerror(errno));
     std::vector<Misfits> misfits;
@@ -160,7 +151,7 @@ std::vector<Misfits> write_stream(const std::string& temporary, const std::strin
             tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
         Imf::setGlobalThreadCount(threads);
         Imf::OutputFile output(sink, header, threads);
-        misfits = write_rows(output, image, type);
+        misfits = write_rows(output, image);
     } // writes the line offset table and hides any failure to do so, hence the check below
     stream.close();
     if (!stream) throw std::runtime_error(std::strerror(errno));
@@ -175,8 +166,7 @@ std::vector<Misfits> write_exr(const std::string& file, const ImageRows& image,
     PendingFile pending(file, options.existing);
     std::vector<Misfits> misfits;
     try {
-        misfits =
-            write_stream(pending.temporary_name(), file, image, pixel_type(options.component));
+        misfits = write_stream(pending.temporary_name(), file, image, options);
     } catch (const std::invalid_argument&) {
         throw; // a mistake of the caller, not of the disk
     } catch (const std::exception& error) {

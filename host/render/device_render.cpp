@@ -6,6 +6,7 @@
 #include "host/film/tiled_film.h"
 #include "host/flatten/scene_features.h"
 #include "host/render/session.h"
+#include "host/render/wave_hits.h"
 #include "host/waves/device_waves.h"
 #include "host/waves/render_params.h"
 #include "host/waves/wavefront.h"
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 namespace parhelion {
@@ -32,8 +34,17 @@ std::size_t film_bytes_at_once(const Device& device) {
     return static_cast<std::size_t>(std::min(device.max_allocation_bytes, device.memory_bytes / 4));
 }
 
-/// Told before anything is rendered: one row of blocks that is more than the device holds.
+/// Told before anything is rendered: a film that is more than the device holds, or of which it does
+/// not take one row of blocks at once.
 void check_film_memory(const Scene& scene, const FilmLayout& layout, const Device& device) {
+    const std::uint64_t bytes = std::uint64_t{layout.bytes()} * layout.bands();
+    if (bytes > device.memory_bytes)
+        throw InputError(fmt::format(
+            "{}: a film of {} x {} pixels and {} channels takes {:.1f} GB; {} has {:.1f} GB "
+            "(accepted: a smaller --size, or a part of it, --crop)",
+            scene.file, scene.film.crop_width, scene.film.crop_height, layout.channels(),
+            static_cast<double>(bytes) / 1e9, device.name,
+            static_cast<double>(device.memory_bytes) / 1e9));
     if (layout.bytes() <= device.max_allocation_bytes) return;
     throw InputError(fmt::format(
         "{}: {} rows of a film of {} pixels a row and {} channels take {:.1f} GB; {} has {:.1f} GB "
@@ -65,10 +76,13 @@ DeviceWaves compiled(RenderDevice& device, const DeviceScene& flat, const Render
 /// The film of a device's buffers.
 class DeviceFilm : public FilmSums {
 public:
-    DeviceFilm(const DeviceWaves& waves, const FilmLayout& layout, const Film& crop)
-        : views_(waves.film_views<const cl_uint>()), film_(values(views_), layout, crop) {}
+    DeviceFilm(const DeviceWaves& waves, const FilmLayout& layout, const Film& crop,
+               const CoverageTiles* coverage)
+        : views_(waves.film_views<const cl_uint>()), film_(values(views_), layout, crop, coverage) {
+    }
 
     void add_row(int channel, int y, SumRow& row) const override { film_.add_row(channel, y, row); }
+    void add_coverage(int y, ShapeWeights& row) const override { film_.add_coverage(y, row); }
 
     template<class Word>
     static std::vector<std::span<Word>> values(const std::deque<BufferView<Word>>& views) {
@@ -104,21 +118,26 @@ public:
         waves_.allocate(sizes_, params);
         loop_ = wave_loop(sizes_, params, scene_.features.on());
         crop_ = scene.film;
+        if (sizes_.film.shape_ids)
+            coverage_.emplace(sizes_.film.window, crop_, scene_.filter_values);
         checked_ = checked;
     }
 
     void trace(WaveSchedule& schedule, const std::function<void()>& on_wave) override {
-        trace_waves(std::span(waves_.streams()), schedule, loop_, on_wave);
+        trace_waves(std::span(waves_.streams()), schedule, loop_, on_wave,
+                    [&](WaveStream& stream, const Wave& wave) { gather_hits(stream, wave); });
         if (checked_) check_bounds();
     }
     WaveLimits wave_limits() const override { return sizes_.wave_limits(); }
 
     std::unique_ptr<FilmSums> film() override {
-        return std::make_unique<DeviceFilm>(waves_, sizes_.film, crop_);
+        return std::make_unique<DeviceFilm>(waves_, sizes_.film, crop_,
+                                            coverage_ ? &*coverage_ : nullptr);
     }
     void fill_film(const FilmSums& sums) override {
         const auto views = waves_.film_views<cl_uint>();
         put_sums(sums, sizes_.film, crop_, DeviceFilm::values(views));
+        if (coverage_) coverage_->add_film(sums);
     }
 
     TraceCounts counts() override { return counts_of(waves_.read_statistics()); }
@@ -130,6 +149,12 @@ public:
     }
 
 private:
+    void gather_hits(WaveStream& stream, const Wave& wave) {
+        if (!coverage_) return;
+        const std::size_t slots = std::size_t{BLOCK_PIXELS} * wave.blocks() * wave.samples();
+        add_hits<float>(*coverage_, wave, sizes_.film,
+                        [&](int channel) { return stream.read_results(channel, slots); });
+    }
     void check_bounds() {
         for (WaveStream& stream : waves_.streams())
             if (const char* buffer = stream.read_outside())
@@ -143,6 +168,7 @@ private:
     WorkSizes sizes_;
     WaveLoop loop_{};
     Film crop_;
+    std::optional<CoverageTiles> coverage_; // where it is asked for
     bool checked_ = false;
 };
 

@@ -2,6 +2,7 @@
 #include "host/render/host_render.h"
 
 #include "host/film/tiled_film.h"
+#include "host/render/wave_hits.h"
 #include "host/twin/twin_waves.h"
 #include "host/waves/render_params.h"
 #include "host/waves/wavefront.h"
@@ -9,6 +10,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -23,20 +26,26 @@ public:
                const AovPlan& aovs, const WorkSizes& sizes)
         : scene_(std::move(flat)), sizes_(sizes), crop_(scene.film), memory_(sizes),
           params_(render_params(scene, scene_, sizes, aovs)),
-          features_(render_features(scene_, options)) {}
+          features_(render_features(scene_, options)) {
+        if (sizes_.film.shape_ids)
+            coverage_.emplace(sizes_.film.window, crop_, scene_.filter_values);
+    }
 
     void trace(WaveSchedule& schedule, const std::function<void()>& on_wave) override {
         TwinWaves<Real> waves({scene_arrays(scene_), params_, features_, WaveParams{}, memory_});
-        trace_waves(std::span(&waves, 1), schedule, wave_loop(sizes_, params_, features_), on_wave);
+        trace_waves(std::span(&waves, 1), schedule, wave_loop(sizes_, params_, features_), on_wave,
+                    [&](TwinWaves<Real>&, const Wave& wave) { gather_hits(wave); });
     }
     WaveLimits wave_limits() const override { return sizes_.wave_limits(); }
 
     std::unique_ptr<FilmSums> film() override {
         return std::make_unique<TiledFilm>(
-            std::vector<std::span<const std::uint32_t>>{memory_.film}, sizes_.film, crop_);
+            std::vector<std::span<const std::uint32_t>>{memory_.film}, sizes_.film, crop_,
+            coverage_ ? &*coverage_ : nullptr);
     }
     void fill_film(const FilmSums& sums) override {
         put_sums(sums, sizes_.film, crop_, {memory_.film});
+        if (coverage_) coverage_->add_film(sums);
     }
 
     TraceCounts counts() override { return counts_of(memory_.statistics); }
@@ -46,12 +55,22 @@ public:
     void report(RenderReport&) override {}
 
 private:
+    void gather_hits(const Wave& wave) {
+        if (!coverage_) return;
+        const std::size_t slots = std::size_t{BLOCK_PIXELS} * wave.blocks() * wave.samples();
+        add_hits<Real>(*coverage_, wave, sizes_.film, [&](int channel) {
+            return std::span<const Real>(memory_.results)
+                .subspan(static_cast<std::size_t>(channel) * sizes_.result_stride(), slots);
+        });
+    }
+
     DeviceScene scene_;
     WorkSizes sizes_;
     Film crop_;
     WaveMemory<Real> memory_;
     RenderParams params_;
     FeatureSet features_;
+    std::optional<CoverageTiles> coverage_; // where it is asked for
 };
 
 } // namespace

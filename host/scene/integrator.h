@@ -22,6 +22,20 @@ struct AovRequest {
     SourceLocation location;
 };
 
+/// Emitters whose light is a layer by itself. One without ids: all that are in no other.
+struct LightGroup {
+    std::string name;
+    std::vector<std::string> ids; ///< of emitters, or of the shapes that they are on
+};
+
+/// What of the shapes of a pixel are told apart: as Cryptomatte layers.
+struct CryptomatteRequest {
+    bool objects = false, materials = false; ///< by ids of shapes, of their bsdfs
+    int depth = 6;                           ///< of a pixel, at most
+
+    bool asked() const { return objects || materials; }
+};
+
 /// `consistent`: shading of smooth meshes keeps to their geometry
 /// (kernels/shared/shading_normal.h); `soft`: and diffuse light fades towards the true horizon,
 /// which hides the edges of faces and loses light; `raw`: interpolated normals are taken as they
@@ -45,6 +59,8 @@ struct Integrator {
     bool emitter_samples = true,
          bsdf_samples = true; ///< `direct`: which of the two strategies are used
     std::vector<AovRequest> aovs;
+    CryptomatteRequest cryptomatte;
+    std::vector<LightGroup> light_groups; ///< none, or each emitter is in one
 };
 
 } // namespace parhelion

@@ -21,9 +21,10 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Blend> blends;
     std::vector<Shape> shapes;
-    std::vector<Emitter> emitters;    ///< all but area emitters, which stand with their shapes
-    std::vector<std::string> sensors; ///< names of those in the file, in its order
-    Camera camera;                    ///< of the one that is used
+    std::vector<Emitter> emitters;        ///< all but area emitters, which stand with their shapes
+    std::vector<std::string> emitter_ids; ///< of those from the first on; "" for one without
+    std::vector<std::string> sensors;     ///< names of those in the file, in its order
+    Camera camera;                        ///< of the one that is used
     Film film;
     Integrator integrator;
     Sampler sampler;

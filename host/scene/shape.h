@@ -76,6 +76,8 @@ struct Shape {
     int material_front = no_material, material_back = no_material;
     std::optional<Rgb> radiance;   ///< area emitter on the front side, W/(m^2 sr)
     TextureUse radiance_texture{}; ///< tells it in the place of that value, 1
+    std::string bsdf_id{};         ///< of the bsdf that stands in it
+    std::string emitter_id{};      ///< "" for one without
 };
 
 } // namespace parhelion

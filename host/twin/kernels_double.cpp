@@ -72,6 +72,9 @@ struct Kernels : WorkItem {
             }
             add_result3(results_of(results, params), result_r, shadow_at_slot(place), light,
                         !blocked);
+            if (FEATURES.has(feature_light_groups))
+                add_result3_by_lane(results_of(results, params), shadow_at_group(place),
+                                    shadow_at_slot(place), light, !blocked);
         }
         AT(ulong, statistics, statistic_count * number + statistic_shadow_rays) +=
             static_cast<ulong>(end - base);

@@ -71,16 +71,21 @@ constexpr FeatureSet stage_features(Stage stage, const FeatureSet& scene) {
     constexpr FeatureSet camera{feature_thin_lens, feature_far_camera};
     switch (stage) {
     case Stage::generate:
-        return film | camera | FeatureSet{feature_faure, feature_replicates, feature_clear_shadows};
+        return film | camera |
+               FeatureSet{feature_faure, feature_replicates, feature_clear_shadows,
+                          feature_shape_ids};
     case Stage::shadow:
-        if (scene.has(feature_clear_shadows)) return shapes | streams | clear_surface_features();
-        [[fallthrough]];
+        return shapes | streams | FeatureSet{feature_light_groups} |
+               (scene.has(feature_clear_shadows) ? clear_surface_features() : FeatureSet{});
     case Stage::intersect:
         return shapes | streams;
     case Stage::accumulate:
         return FeatureSet{feature_filter_splatting} | film_only;
     case Stage::shade:
-        return FeatureSet::all() - film - streams - FeatureSet{feature_thin_lens} - film_only;
+        // Where a shape is told depends on what the film has before.
+        return FeatureSet::all() -
+               (scene.has(feature_shape_ids) ? FeatureSet{feature_filter_sampling} : film) -
+               streams - FeatureSet{feature_thin_lens} - film_only;
     }
     return {};
 }

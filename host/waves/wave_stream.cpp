@@ -9,8 +9,8 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
                        const WorkSizes& s)
     : queue_(device.context, device.device.handle, CL_QUEUE_PROFILING_ENABLE),
       no_film_(device.context, "film", 0), band_blocks_(s.film.band_blocks),
-      outside_(device.context, "outside", 1), checked_(programs.checked),
-      work_group_size_(s.work_group_size) {
+      outside_(device.context, "outside", 1), result_stride_(s.result_stride()),
+      checked_(programs.checked), work_group_size_(s.work_group_size) {
     for (std::size_t stage = 0; stage < stage_count; stage++)
         kernels_.push_back(programs.programs[stage].kernel(stage_names[stage]));
     work_ = wave_buffers(device.context, queue_, buffer_counts(s));
@@ -59,6 +59,13 @@ void WaveStream::launch(Stage stage, int depth, int work_items) {
 std::span<const int> WaveStream::read_counts() {
     work_.counts.read(queue_, counts_.data());
     return counts_;
+}
+
+std::vector<float> WaveStream::read_results(int channel, std::size_t slots) {
+    std::vector<float> values(slots);
+    work_.results.read(queue_, static_cast<std::size_t>(channel) * result_stride_, slots,
+                       values.data());
+    return values;
 }
 
 std::vector<ulong> WaveStream::read_statistics() {

@@ -34,6 +34,8 @@ public:
     /// Waits for the device, and adds what each stage took.
     void end_wave();
 
+    /// What the first `slots` of the pool have of a channel of results.
+    std::vector<float> read_results(int channel, std::size_t slots);
     /// Of all segments.
     std::vector<ulong> read_statistics();
     /// BAD_SAMPLE_FIELDS a block of the film.
@@ -57,6 +59,7 @@ private:
     int band_blocks_;
     std::vector<WaveBlock> blocks_; ///< of the wave
     Buffer<cl_uint> outside_;       ///< of checked kernels
+    std::size_t result_stride_;
     bool checked_;
     int work_group_size_;
     std::vector<std::pair<std::size_t, cl::Event>> pending_;

@@ -58,15 +58,17 @@ void trace_wave(Device& device, const Wave& wave, const WaveLoop& loop) {
 
 /// Waves until there are none left. A host thread for each of several devices: while one waits for
 /// the last work-items of a stage, the other's are there to be done. `on_wave` is called after each
-/// wave, by one thread at a time; it may stop the schedule.
-template<WaveDevice Device, class OnWave>
+/// wave, by one thread at a time; it may stop the schedule. `gather(device, wave)` before that, by
+/// the thread that has traced the wave, whose results are still there.
+template<WaveDevice Device, class OnWave, class Gather>
 void trace_waves(std::span<Device> devices, WaveSchedule& schedule, const WaveLoop& loop,
-                 const OnWave& on_wave) {
+                 const OnWave& on_wave, const Gather& gather) {
     std::mutex telling;
     auto run = [&](Device& device) {
         try {
             while (auto wave = schedule.take()) {
                 trace_wave(device, *wave, loop);
+                gather(device, *wave);
                 std::scoped_lock lock(telling);
                 schedule.finish(*wave);
                 on_wave();

@@ -34,6 +34,7 @@ LAYOUT(WaveBlock, 8);
     X(int, texels) /* of images, one behind the other */                                           \
     X(float, byte_values) X(LightRecord, lights) X(int, light_textures) /* LIGHT_TEXTURE_WORDS a row */ \
     X(LightNodeRecord, light_nodes) X(int, light_leaves) /* the leaf of each light */              \
+    X(int, light_groups) /* of each row of the light table: first channel of results of its group */ \
     X(int, environment) /* of a sky: environment.h, and words before that: daylight.h */           \
     X(float, energy_tables)                                                                        \
     X(FilterBin, filter_table) X(float, filter_values) /* at n / FILTER_INTERVALS pixels */
@@ -85,8 +86,8 @@ LAYOUT(WaveBlock, 8);
 // What its ray has hit, and where on that.
 #define HIT_FIELDS(X) X(Real, b1, 1) X(Real, b2, 1) X(Int, primitive, 1)
 
-// What a shadow ray brings where nothing is in its way.
-#define BROUGHT_FIELDS(X) X(vec3, contribution, 1) X(Int, slot, 1)
+// What a shadow ray brings where nothing is in its way, and the channel of the group of its light.
+#define BROUGHT_FIELDS(X) X(vec3, contribution, 1) X(Int, slot, 1) X(Int, group, HAS(light_groups))
 
 #define PATH_FIELDS(X) RAY_FIELDS(X) CARRIED_FIELDS(X) HIT_FIELDS(X)
 #define SHADOW_FIELDS(X) RAY_FIELDS(X) BROUGHT_FIELDS(X) X(Int, blocked, HAS(ray_streams))
@@ -97,11 +98,13 @@ LAYOUT(WaveBlock, 8);
 // With g the square of a sample's weight: sum of g; and of r, g, b each sums of g x and g x^2.
 #define SPREAD_CHANNELS(X) X(weight) X(first_r) X(first_g) X(first_b) X(second_r) X(second_g) X(second_b)
 
-// Channels of results and film, behind each other: RESULT_FIELDS, `aovs` channels of AOVs; then of results, if
-// HAS(filter_splatting), the sample's offset from the centre of its pixel, x and y; of the film, if HAS(moments), the squares of
+// Channels of results and film, behind each other: RESULT_FIELDS, `aovs` channels of AOVs, light groups among them; then of results, if
+// HAS(filter_splatting), the sample's offset from the centre of its pixel, x and y, and if HAS(shape_ids), 1 more than the shape that
+// its camera ray has met, 0 for none; of the film, if HAS(moments), the squares of
 // r, g, b, and if HAS(variance), SPREAD_CHANNELS.
 #define AOV_CHANNEL(channel) (result_field_count + (channel))
-#define RESULT_CHANNELS(aovs, splatted) (AOV_CHANNEL(aovs) + ((splatted) ? 2 : 0))
+#define SHAPE_CHANNEL(aovs, splatted) (AOV_CHANNEL(aovs) + ((splatted) ? 2 : 0))
+#define RESULT_CHANNELS(aovs, splatted, shape_ids) (SHAPE_CHANNEL(aovs, splatted) + ((shape_ids) ? 1 : 0))
 #define SQUARE_CHANNEL(aovs) AOV_CHANNEL(aovs)
 #define SPREAD_CHANNEL(aovs, moments) (SQUARE_CHANNEL(aovs) + ((moments) ? 3 : 0))
 #define FILM_CHANNELS(aovs, moments, variance) (SPREAD_CHANNEL(aovs, moments) + ((variance) ? (int)spread_channel_count : 0))

@@ -33,6 +33,11 @@ FN LightPair light_pair(global const LightNodeRecord* nodes, Int first, vec3 p, 
     return pair;
 }
 
+/// First channel of results of the lights' groups, in the lanes whose bits are set.
+FN Int light_group(global const int* groups, Int row, uint bits) {
+    return gather_int(groups, sel(lanesOf(bits), row, (Int)0));
+}
+
 /// One random number x chooses at every step; y refills the digits it loses by that.
 FN LightPick pick_light(global const LightNodeRecord* nodes, vec3 p, vec3 n, Mask wanted, Uint x,
                         Uint y) {

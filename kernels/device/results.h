@@ -32,6 +32,17 @@ FN void add_result3(Results r, int channel, Int slot, vec3 v, uint bits) {
     scatter_add3(result_channel(r, channel), r.stride, slot, v, bits);
 }
 
+/// To three neighbouring channels, of each lane its own; in turns, one for each channel there is.
+FN void add_result3_by_lane(Results r, Int channel, Int slot, vec3 v, uint bits) {
+    IntLanes channels = one_by_one(channel);
+    while (bits) {
+        int first = channels.at[lowest_bit(bits)];
+        uint same = bits & maskBits(channel == (Int)first);
+        add_result3(r, first, slot, v, same);
+        bits &= ~same;
+    }
+}
+
 /// 0 where all are finite, and no number where not; sums of it cannot overflow.
 FN Real nought3(vec3 a) { return fmaR(a.x, R(0.), fmaR(a.y, R(0.), a.z * R(0.))); }
 

@@ -18,6 +18,13 @@ FN void write_aov3(ShadeWork w, PathVertex v, int kind, vec3 value) {
                     maskBits(v.hit));
 }
 
+/// Which shape the camera's rays have met.
+FN void write_shape(ShadeWork w, PathVertex v) {
+    Int shape = PRIMITIVE_SHAPE(v.primitive.stored.shape);
+    add_result(w.results, SHAPE_CHANNEL(w.params->aov_channels, HAS(filter_splatting)), v.path.slot,
+               toReal(shape + 1), maskBits(v.hit));
+}
+
 FN void write_aovs(ShadeWork w, PathVertex v, Shading shading) {
     vec3 albedo = material_reflectance(shading.material);
     if (HAS(blends)) albedo = all_lobes_reflectance(w, shading);

@@ -12,6 +12,7 @@ typedef struct {
     Mask lanes; // that get light from their sample
     EmitterSample sample;
     vec3 contribution;
+    Int row; // of its light
 } DirectLight;
 
 /// Against a ray of the BSDF's choice that meets the light, which does not know how this surface
@@ -36,6 +37,7 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
     Light light =
         light_picked_with(load_Light(w.scene.lights, pick.row), sel(reached, pick.pmf, R(1.)));
     DirectLight d;
+    d.row = pick.row;
     d.sample = emitter_sample(light, from, uniform2(r.z, r.w));
     if (HAS(emitter_envmap)) {
         Mask sky = reached & (light.kind == emitter_envmap);
@@ -49,10 +51,9 @@ FN DirectLight direct_light(ShadeWork w, PathVertex v, Shading s) {
             d.sample = sel_emitter(
                 sky, daylight_chosen(w.scene, light, w.params->sky_texture, r, sky), d.sample);
     }
-    if (HAS(textured_lights)) {
-        vec3 color = sampled_light_color(w.scene, v.path, pick.row, d.sample.q, reached);
-        d.sample.weight = mul3(d.sample.weight, color);
-    }
+    if (HAS(textured_lights))
+        d.sample.weight = mul3(d.sample.weight,
+                               sampled_light_color(w.scene, v.path, pick.row, d.sample.q, reached));
     if (HAS(projected_textures)) {
         vec3 color = projected_color(w.scene, light, pick.row, d.sample, reached);
         d.sample.weight = mul3(d.sample.weight, color);
@@ -98,6 +99,7 @@ FN int cast_shadow_rays(ShadeWork w, PathVertex v, Shading s, DirectLight d, Sta
     ray.excluded = s.excluded;
     ray.contribution = d.contribution;
     ray.slot = v.path.slot;
+    if (HAS(light_groups)) ray.group = light_group(w.scene.light_groups, d.row, maskBits(d.lanes));
     Mask bad = d.lanes & (nought3(ray.origin) + nought3(ray.direction) != R(0.));
     mark_bad(w.results, v.path.slot, bad, fault_next_event, w.depth);
     return pack_shadow_ray(to, ray, maskBits(d.lanes & !bad));

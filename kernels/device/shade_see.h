@@ -106,6 +106,15 @@ FN vec3 seen_light(ShadeWork w, PathVertex v) {
     return seen;
 }
 
+/// What was gathered from the lights that the lanes see, or the sky, to their groups.
+FN void see_groups(ShadeWork w, PathVertex v, vec3 gathered, uint bits) {
+    Int row = (Int)w.params->sky_light;
+    if (HAS(several_lights)) row = sel(v.hit, v.primitive.stored.light, row);
+    if (!HAS(several_lights)) row = (Int)0;
+    add_result3_by_lane(w.results, light_group(w.scene.light_groups, row, bits), v.path.slot,
+                        gathered, bits);
+}
+
 /// The lanes' pixels are covered by what they have hit, or by a sky that counts.
 FN void see_coverage(ShadeWork w, PathVertex v, vec3 seen) {
     if (HAS(straight_through)) {
@@ -128,6 +137,7 @@ FN void see(ShadeWork w, PathVertex v) {
         bad_emission = v.active & (nought3(gathered) != R(0.));
         uint bits = maskBits(v.active & (max_component(seen) != R(0.)));
         if (bits) add_result3(w.results, result_r, v.path.slot, gathered, bits);
+        if (HAS(light_groups) && HAS(emission) && bits) see_groups(w, v, gathered, bits);
     }
     see_coverage(w, v, seen);
     mark_bad(w.results, v.path.slot, v.bad_hit, fault_hit, w.depth);

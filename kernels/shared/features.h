@@ -75,6 +75,8 @@
     X(view_normals) X(view_depth)                                                                  \
     X(moments)            /* the second moment of the radiance is asked for */                      \
     X(variance)           /* how the samples of a pixel spread is asked for */                      \
+    X(shape_ids)          /* which shape a camera ray meets is asked for, of each sample */        \
+    X(light_groups)       /* what each group of emitters sends is asked for by itself */           \
     X(aovs)
 // clang-format on
 

@@ -10,22 +10,35 @@ needs slurmd slurm-wlm
 . "$here/cluster.sh"
 finish() { stop_cluster; }
 
-parts=8
-options=(--size 64x64 --spp 3072)
+parts=8 struck=4
+options=(--size 64x64 --spp 9216)
 
-# The program as the scripts find it: it tells what process renders a part, and keeps what a later start finds.
+# The program as the scripts find it: it tells what process renders a part, and keeps what a later start finds. The first start
+# of a part that something is to happen to stops at its third checkpoint, by when a render from the beginning would be well
+# behind, and waits there: however slow this machine is, it is not done before.
 install_program() {
-    mkdir started kept
+    mkdir started kept held
     rm bin/parhelion
+    cat >bin/hold <<SCRIPT
+#!/bin/bash
+# hold PROCESS CHECKPOINT FILE
+sums=''
+while kill -0 "\$1" 2>/dev/null; do
+    sum=\$(sha256sum 2>/dev/null <"\$2") && [[ \$sums != *"\$sum"* ]] && sums+=\$sum
+    ((\${#sums} < 3 * 67)) || { kill -STOP "\$1" && touch "\$3"; exit; }
+    sleep 0.02
+done
+SCRIPT
     cat >bin/parhelion <<SCRIPT
 #!/bin/bash
 part=\${SLURM_ARRAY_TASK_ID:-0} start=\${SLURM_RESTART_COUNT:-0}
 file=$work/frame.exr.parts/part-\$part.checkpoint
 if [[ \$1 == render ]] && ((start)) && [[ -f \$file ]]; then cp "\$file" "$work/kept/\$part-\$start.film"; fi
 [[ \$1 != render ]] || echo \$\$ >"$work/started/\$part-\$start"
+[[ \$1 != render ]] || ((start || part > $struck)) || "$work/bin/hold" \$\$ "\$file" "$work/held/\$part" &
 exec "$program" "\$@"
 SCRIPT
-    chmod +x bin/parhelion
+    chmod +x bin/parhelion bin/hold
 }
 
 # The first checkpoint that a task writes after it has started again.
@@ -39,25 +52,27 @@ note_checkpoints() {
     done
 }
 
-# kept_thrice PART: three checkpoints of it were seen, by which time a render from the beginning would be well behind.
-declare -A seen
-kept_thrice() {
-    local sum
-    sum=$(sha256sum <"frame.exr.parts/part-$1.checkpoint") || return 1
-    [[ ${seen[$1]:-} == *"$sum"* ]] || seen[$1]+=$sum
-    ((${#seen[$1]} >= 3 * ${#sum}))
-}
-
 meanwhile() {
     hurry_requeued
     note_checkpoints
 }
 
-at_work() { # PART, beyond its third checkpoint
-    until_true 60 "part $1 at work" kept_thrice "$1"
-    [[ $(squeue -h -o %T -j "${array}_$1") == RUNNING ]] || wrong "part $1 was done before anything happened to it: too few samples"
+# Whether a process that is held has a signal waiting for it, or has been woken by who sent it.
+signalled() { ! grep -q '^State:.T' "/proc/$1/status" || ! grep -q '^ShdPnd:.0*$' "/proc/$1/status"; }
+
+# strike PART COMMAND...: which is to end its first start, or to have it end.
+strike() {
+    local part=$1 process
+    shift
+    until_true 120 "part $part at work" test -f "held/$part"
+    [[ $(squeue -h -o %T -j "${array}_$part") == RUNNING ]] || wrong "part $part does not run"
+    process=$(<"started/$part-0")
+    "$@" || wrong "$*"
+    until_true 60 "$1 to part $part" signalled "$process"
+    kill -CONT "$process" 2>/dev/null
 }
 
+kill_render() { kill -KILL "$(<"started/$1-0")"; }
 requeued() { until_true 30 "part $1 requeued after $2" test -f "started/$1-1"; }
 
 # Per cent of the samples that a film lacks.
@@ -77,16 +92,12 @@ frame() {
     local ids part
     ids=$("$scripts/slurm-frame.sh" "$parts" "$scene" frame.exr "${options[@]}") || { wrong "slurm-frame.sh: $ids"; return; }
     array=${ids% *}
-    at_work 1
-    kill -KILL "$(<started/1-0)"
-    at_work 2
-    scontrol requeue "${array}_2" || wrong "scontrol requeue"
-    at_work 3
-    scancel --batch --signal=USR1 "${array}_3" 2>/dev/null & # as a minute before the time limit
-    at_work 4
-    sbatch --quiet --partition=urgent --ntasks=2 --output=/dev/null --wrap true || wrong "no job that preempts"
-    for part in 1 2 3 4; do requeued "$part" "its turn"; done
-    until_true 90 "the frame" test -f frame.exr
+    strike 1 kill_render 1
+    strike 2 scontrol requeue "${array}_2"
+    strike 3 scancel --batch --signal=USR1 "${array}_3" # as a minute before the time limit
+    strike 4 sbatch --quiet --partition=urgent --ntasks=2 --output=/dev/null --wrap true
+    for ((part = 1; part <= struck; part++)); do requeued "$part" "its turn"; done
+    until_true 180 "the frame" test -f frame.exr
     cmp frame.exr one.exr || wrong "the merged image is not that of one render"
     grep -q 'exit code 137 after start 1; once more' frame.exr.parts/part-1.log || wrong "a killed task does not say so"
     grep -q 'DUE TO JOB REQUEUE' frame.exr.parts/part-2.log || wrong "part 2 was not requeued"

@@ -336,6 +336,14 @@ inline void set_analytic_uvs(Setup& s, bool on) {
 inline void set_variance(Setup& s, bool on) {
     if (on) ask_aov(s, "variance");
 }
+inline void set_shape_ids(Setup& s, bool on) { s.scene.integrator.cryptomatte.objects = on; }
+/// One of all that shines from surfaces by an id, and what does not.
+inline void set_light_groups(Setup& s, bool on) {
+    if (!on) return;
+    for (Shape& shape : s.scene.shapes)
+        if (shape.radiance) shape.emitter_id = "lamps";
+    s.scene.integrator.light_groups = {{"lamps", {"lamps"}}, {"rest", {}}};
+}
 inline void set_aovs(Setup& s, bool on) {
     if (on) ask_aov(s, "albedo");
 }

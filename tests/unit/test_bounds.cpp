@@ -31,6 +31,7 @@ void empty_byte_values(DeviceScene& s) { s.byte_values.clear(); }
 void empty_lights(DeviceScene& s) { s.lights.clear(); }
 void empty_light_nodes(DeviceScene& s) { s.light_tree.nodes.clear(); }
 void empty_light_textures(DeviceScene& s) { s.light_textures.clear(); }
+void empty_light_groups(DeviceScene& s) { s.light_groups.clear(); }
 void empty_light_leaves(DeviceScene& s) { s.light_tree.leaves.clear(); }
 void empty_environment(DeviceScene& s) { s.environment.shares.clear(); }
 void empty_energy_tables(DeviceScene& s) { s.energy_tables.clear(); }
@@ -83,6 +84,8 @@ TEST_CASE("Bounds: every table of a scene is looked after", "[bounds]") {
         if (std::string(table.name) == "light_textures")
             for (Shape& shape : scene.shapes)
                 if (shape.radiance) shape.radiance_texture = example_checkerboard().texture;
+        if (std::string(table.name) == "light_groups")
+            scene.integrator.light_groups = {{"all", {}}};
         for (std::size_t i = 0; i < scene.materials.size(); i++)
             if (auto* matte = std::get_if<DiffuseBsdf>(&scene.materials[i].bsdf))
                 matte->reflectance = example_textures[i % example_textures.size()]();

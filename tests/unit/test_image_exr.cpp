@@ -2,6 +2,8 @@
 #include "host/image/exr.h"
 #include "test_image_tools.h"
 
+#include <half.h>
+
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -187,4 +189,60 @@ TEST_CASE("Image: channels that do not belong are refused") {
     CHECK(image.channels.size() == 1);
     CHECK(layer_of("a.b.R") == "a.b");
     CHECK(layer_of("R").empty());
+}
+
+TEST_CASE("EXR: every compression, of which those that lose something lose what is said alone") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("a.exr");
+    // Uneven and finite, with digits beyond those of a half: what a lossy packing would change.
+    Image image = make_image(67, 41);
+    std::vector<float> ramp(image.pixel_count());
+    for (std::size_t i = 0; i < ramp.size(); i++)
+        ramp[i] =
+            0.1f + 0.00123f * static_cast<float>(i % 67) + 0.01f * static_cast<float>(i * i % 29);
+    for (const char* name : {"R", "normal.Y", "depth.T", "samples.N", "half.R", "half.T"})
+        add_channel(image, name, ramp);
+    for (std::size_t i = 0; i < exr_compression_names.size(); i++) {
+        CAPTURE(exr_compression_names[i]);
+        ExrOptions options{.compression = static_cast<ExrCompression>(i)};
+        options.layers["half"] = ComponentFormat::float16;
+        CHECK(write_exr(file, image, options).empty());
+        CHECK(is_written_as(file, options));
+        const Image back = read_exr(file);
+        std::vector<float> halves;
+        halves.reserve(ramp.size());
+        for (const float v : ramp)
+            halves.push_back(Imath::half(v));
+        const auto kept = [&](const char* name, const std::vector<float>& values) {
+            return same_bits(find_channel(back, name)->values, values);
+        };
+        const ExrLoss loss = exr_losses[i];
+        CHECK(kept("R", ramp) == (loss != ExrLoss::of_floats && loss != ExrLoss::of_colors));
+        CHECK(kept("normal.Y", ramp) == kept("R", ramp));
+        CHECK(kept("depth.T", ramp) == (loss != ExrLoss::of_floats));
+        CHECK(kept("samples.N", ramp) == kept("depth.T", ramp));
+        CHECK(kept("half.R", halves) == (loss != ExrLoss::of_halves && loss != ExrLoss::of_colors));
+        CHECK(kept("half.T", halves) == (loss != ExrLoss::of_halves));
+    }
+}
+
+TEST_CASE("EXR: whether a file is written as asked: its compression, and every component") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("a.exr");
+    Image image = make_image(2, 2);
+    add_channel(image, "R", {1, 2, 3, 4});
+    add_channel(image, "a.b.R", {1, 2, 3, 4});
+    ExrOptions options;
+    CHECK(!is_written_as(file, options)); // there is none
+    CHECK(write_exr(file, image, options).empty());
+    CHECK(is_written_as(file, options));
+    options.compression = ExrCompression::rle;
+    CHECK(!is_written_as(file, options));
+    options = {};
+    options.layers["a.b"] = ComponentFormat::float16;
+    CHECK(!is_written_as(file, options));
+    CHECK(write_exr(file, image, options).empty());
+    CHECK(is_written_as(file, options));
+    options.layers[""] = ComponentFormat::float16;
+    CHECK(!is_written_as(file, options));
 }

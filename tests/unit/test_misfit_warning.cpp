@@ -31,9 +31,9 @@ TEST_CASE("Misfits: none, none told") {
 }
 
 TEST_CASE("Misfits: how many, in which layers, where the first of each is") {
-    Film film;
-    film.component_format = ComponentFormat::float16;
-    std::string text = misfit_warning("a.exr", film, report_of(2));
+    ExrOptions written;
+    written.component = ComponentFormat::float16;
+    std::string text = misfit_warning("a.exr", written, report_of(2));
     CHECK_THAT(text, Contains("a.exr: 4 values of the image are not finite") &&
                          Contains("a.exr: 2 values are beyond float16 (65504)") &&
                          Contains("infinite in the file") &&
@@ -41,10 +41,17 @@ TEST_CASE("Misfits: how many, in which layers, where the first of each is") {
                          Contains("layer1.R: 3 values, the first at pixel 4,5: inf") &&
                          !Contains("--stats"));
     CHECK(text.back() != '\n');
-    CHECK_THAT(misfit_warning("a.exr", film, report_of(9)), Contains("5 channels more (--stats"));
-    film.component_format = ComponentFormat::uint32;
-    CHECK_THAT(misfit_warning("a.exr", film, report_of(1)), Contains("beyond uint32"));
-    CHECK_THAT(misfit_warning("a.png", film, report_of(1)), Contains("shown in magenta"));
+    CHECK_THAT(misfit_warning("a.exr", written, report_of(9)),
+               Contains("5 channels more (--stats"));
+    written.component = ComponentFormat::uint32;
+    CHECK_THAT(misfit_warning("a.exr", written, report_of(1)), Contains("beyond uint32"));
+    CHECK_THAT(misfit_warning("a.png", written, report_of(1)), Contains("shown in magenta"));
+}
+
+TEST_CASE("Misfits: of layers of different components, what is said is of that which did not fit") {
+    ExrOptions written;
+    written.layers["layer0"] = ComponentFormat::float16;
+    CHECK_THAT(misfit_warning("a.exr", written, report_of(1)), Contains("beyond float16 (65504)"));
 }
 
 TEST_CASE("Misfits: the report for scripts has each channel") {

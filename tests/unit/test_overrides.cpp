@@ -33,7 +33,7 @@ std::string scene_with(const std::string& integrator, const std::string& sensor)
            "value=\"9\"/></film></sensor><shape type=\"sphere\"><bsdf type=\"diffuse\"><float "
            "name=\"reflectance\" "
            "value=\"$grey\"/></bsdf></shape><shape type=\"sphere\"><bsdf type=\"roughconductor\"/>"
-           "</shape></scene>";
+           "</shape><emitter type=\"point\" id=\"lamp\"/><emitter type=\"constant\"/></scene>";
 }
 
 const std::string bare = scene_with("<integrator type=\"path\"/>", "");
@@ -93,6 +93,16 @@ std::vector<Precedence> table() {
             names += a.name + ":" + a.kind + " ";
         return names;
     };
+    auto groups = [](const Scene& s) {
+        std::string names;
+        for (const LightGroup& group : s.integrator.light_groups)
+            names += group.name + " ";
+        return names;
+    };
+    auto mattes = [](const Scene& s) {
+        const CryptomatteRequest& c = s.integrator.cryptomatte;
+        return fmt::format("{} {} {}", c.objects, c.materials, c.depth);
+    };
     auto kind = [](IntegratorKind k) { return text(static_cast<int>(k)); };
     const std::string path = kind(IntegratorKind::path);
     return {
@@ -146,6 +156,20 @@ std::vector<Precedence> table() {
          "false"},
         {"--filter-by", {"--filter-by", "sampling"}, method, "0", "0", "1"},
         {"--aov", {"--aov", "albedo,normals"}, aovs, "", "", "albedo:albedo normals:sh_normal "},
+        {"--light-group", {"--light-group", "key=lamp"}, groups, "", "", "key rest "},
+        {"--light-groups", {"--light-groups"}, groups, "", "", "lamp rest "},
+        {"--cryptomatte",
+         {"--cryptomatte", "object"},
+         mattes,
+         "false false 6",
+         "false false 6",
+         "true false 6"},
+        {"--cryptomatte-depth",
+         {"--cryptomatte", "object,material", "--cryptomatte-depth", "3"},
+         mattes,
+         "false false 6",
+         "false false 6",
+         "true true 3"},
         {"--sensor", {"--sensor", "1"}, width, "768", "50", "9"},
         {"--define", {"-D", "grey=0.75"}, grey, "0.25", "0.25", "0.75"},
         {"--crop",
@@ -198,6 +222,11 @@ TEST_CASE("Overrides: values that cannot be are refused", "[overrides]") {
                                    {"--size", "65537x1"},
                                    {"--size", "1x65537"},
                                    {"--size", "4"},
+                                   {"--cryptomatte", "asset"},
+                                   {"--cryptomatte", "object,object"},
+                                   {"--cryptomatte", "object", "--cryptomatte-depth", "0"},
+                                   {"--cryptomatte", "object", "--cryptomatte-depth", "65"},
+                                   {"--light-group", "nobody"},
                                    {"--size", "4x4x4"},
                                    {"--size", "4,4"},
                                    {"--crop", "0,0,0,1"},

@@ -50,10 +50,10 @@ TEST_CASE("Work sizes: buffers are as long as what lies in them", "[waves]") {
         auto segments = static_cast<std::size_t>(s.segments);
         std::size_t entries = segments * s.segment_stride;
         // A ray is 8 words; paths have throughput, density, index, slot, pixel, sample, where they
-        // were scattered and a hit of 3; shadow rays what they bring, their slot and whether they
-        // were blocked.
+        // were scattered and a hit of 3; shadow rays what they bring, their slot, the channel of
+        // their light's group and whether they were blocked.
         CHECK(holds(n.path_state, 8 + 11 + 3, entries));
-        CHECK(holds(n.shadow_state, 8 + 3 + 1 + 1, entries));
+        CHECK(holds(n.shadow_state, 8 + 3 + 1 + 1 + 1, entries));
         // Light, alpha, weight and the two AOVs.
         std::size_t results = 3 + 1 + 1 + 3 + 1;
         CHECK(holds(n.results, results, s.path_capacity));
@@ -67,6 +67,20 @@ TEST_CASE("Work sizes: buffers are as long as what lies in them", "[waves]") {
         // Both parts of the sums of these, of three squares and of seven numbers of how they
         // spread, of every pixel of every block.
         CHECK(holds(n.film, EXACT_WORDS * (results + 3 + 7), blocks * 16));
+    }
+}
+
+TEST_CASE("Work sizes: light groups are channels of results and film, shapes of results alone",
+          "[waves]") {
+    for (FilterKind filter : {FilterKind::box, FilterKind::gaussian}) {
+        const Scene plain = scene_of(13, 9, filter);
+        Scene scene = plain;
+        scene.integrator.light_groups = {{"key", {"lamp"}}, {"rest", {}}};
+        scene.integrator.cryptomatte.objects = true;
+        const WorkSizes without = sizes_of(plain, 3, 1, {200, 7, 3, 2}),
+                        with = sizes_of(scene, 3, 1, {200, 7, 3, 2});
+        CHECK(with.film.result_channels() == without.film.result_channels() + 2 * 3 + 1);
+        CHECK(with.film.channels() == without.film.channels() + 2 * 3);
     }
 }
 

@@ -88,14 +88,17 @@ void SceneBuilder::add_shape(const Object& object) {
     Shape shape{object.id, object.plugin, object.location, {}, {}, {}, {}};
     if (shape.id.empty()) shape.id = "shape " + std::to_string(scene_.shapes.size() + 1);
     ShapeParts parts = shape_parts(document_, object);
+    shape.bsdf_id = !parts.bsdf ? "default" : parts.bsdf->id;
+    if (shape.bsdf_id.empty()) shape.bsdf_id = shape.id + ".bsdf";
     bool there = false;
     attempt([&] {
         shape.geometry = read_shape(document_, object, scene_.notes);
         there = true;
     });
     attempt([&] {
-        if (parts.emitter)
-            set_radiance(shape, read_area_emitter(document_, *parts.emitter, scene_.notes));
+        if (!parts.emitter) return;
+        set_radiance(shape, read_area_emitter(document_, *parts.emitter, scene_.notes));
+        shape.emitter_id = parts.emitter->id;
     });
     problems_.attempt([&] {
         const SurfaceMaterials materials =
@@ -119,6 +122,7 @@ void SceneBuilder::add_emitter(const Object& object) {
         background_ = object.location;
     }
     scene_.emitters.push_back(emitter);
+    scene_.emitter_ids.push_back(object.id);
 }
 
 void refuse_second(std::optional<SourceLocation>& first, const Child& child, const char* tag) {

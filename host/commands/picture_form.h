@@ -1,0 +1,33 @@
+// How the picture of a film is written as an .exr, as `render` and `merge` are asked to.
+#pragma once
+
+#include "host/commands/command_line.h"
+#include "host/film/film_content.h"
+#include "host/image/exr.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace parhelion {
+
+/// What the command line says of it. It has no say in what is on the film.
+struct PictureForm {
+    std::optional<std::string> compression{};
+    std::vector<std::string> layer_formats{}; ///< NAME=half or NAME=float
+
+    bool asked() const { return compression || !layer_formats.empty(); }
+};
+
+/// The rows of it in a subcommand's table.
+std::vector<Option> picture_form_options(PictureForm& form);
+
+/// Throws InputError for words that are not known, or where `output` is no .exr.
+void check_picture_form(const PictureForm& form, const std::string& output);
+
+/// For the picture of such a film. Layers of whole numbers are float32 where they would be float16,
+/// which has those up to 2048 alone. Throws InputError for a layer that there is not, that is named
+/// twice, or whose whole numbers the file would not hold.
+ExrOptions exr_options(const PictureForm& form, const FilmContent& content);
+
+} // namespace parhelion
