@@ -44,6 +44,7 @@ Program compile(const RenderDevice& d, const ProgramOptions& options) {
 FeatureSet of_geometry(FeatureSet features, bool streams) {
     features.set(feature_ray_streams, streams);
     features.set(feature_clear_shadows, false);
+    features.set(feature_light_groups, false); // these rays bring light of none
     return features;
 }
 
