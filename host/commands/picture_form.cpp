@@ -1,13 +1,13 @@
 // How the picture of a film is written as an .exr, as `render` and `merge` are asked to.
 #include "host/commands/picture_form.h"
 
-#include "host/commands/render_outputs.h"
 #include "host/error.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 namespace parhelion {
@@ -103,6 +103,10 @@ void set_components(const PictureForm& form, const std::vector<PictureLayer>& la
 }
 
 } // namespace
+
+bool is_film_file(const std::string& file) {
+    return std::filesystem::path(file).extension() == ".film";
+}
 
 std::vector<Option> picture_form_options(PictureForm& form) {
     return {

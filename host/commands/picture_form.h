@@ -19,6 +19,9 @@ struct PictureForm {
     bool asked() const { return compression || !layer_formats.empty(); }
 };
 
+/// Whether a name is that of a film, by its extension.
+bool is_film_file(const std::string& file);
+
 /// The rows of it in a subcommand's table.
 std::vector<Option> picture_form_options(PictureForm& form);
 

@@ -2,6 +2,7 @@
 #include "host/commands/render_outputs.h"
 
 #include "host/commands/misfit_warning.h"
+#include "host/commands/picture_form.h"
 #include "host/commands/render_key.h"
 #include "host/error.h"
 #include "host/film/film_image.h"
@@ -117,10 +118,6 @@ metadata_of(const Scene& scene, const RenderReport& report, const std::string& d
     if (report.lenient)
         metadata.emplace_back("notes", fmt::format("{}", fmt::join(report.notes, "\n")));
     return metadata;
-}
-
-bool is_film_file(const std::string& file) {
-    return std::filesystem::path(file).extension() == ".film";
 }
 
 std::vector<Misfits> write_picture(const std::string& file, const FilmHeader& header,

@@ -28,9 +28,6 @@ std::optional<Existing> check_left_over(const RenderCommand& command, const std:
 std::vector<std::pair<std::string, MetadataValue>>
 metadata_of(const Scene& scene, const RenderReport& report, const std::string& digest);
 
-/// Whether a name is that of a film, by its extension.
-bool is_film_file(const std::string& file);
-
 /// Writes the picture of a film; its header says where samples are not all there. Says and returns
 /// what the file does not hold as it is. Throws as write_image does.
 std::vector<Misfits> write_picture(const std::string& file, const FilmHeader& header,

@@ -3,7 +3,7 @@
 # shellcheck disable=SC2154 # what is the reader's
 needs parallel parallel
 
-options=(--size 64x64 --spp 4096)
+options=(--size 64x64 --spp 16384) # seconds of work for every part
 
 # The process that renders part $1: no other names this folder.
 renderer() { pgrep -f "^parhelion render .*--output $work/frame.exr.parts/part-$1.film"; }

@@ -72,6 +72,8 @@ strike() {
     kill -CONT "$process" 2>/dev/null
 }
 
+# As a minute before the time limit. It waits for the shell, and complains of one that ends meanwhile.
+warn() { scancel --batch --signal=USR1 "${array}_$1" 2>/dev/null & }
 kill_render() { kill -KILL "$(<"started/$1-0")"; }
 requeued() { until_true 30 "part $1 requeued after $2" test -f "started/$1-1"; }
 
@@ -94,7 +96,7 @@ frame() {
     array=${ids% *}
     strike 1 kill_render 1
     strike 2 scontrol requeue "${array}_2"
-    strike 3 scancel --batch --signal=USR1 "${array}_3" # as a minute before the time limit
+    strike 3 warn 3
     strike 4 sbatch --quiet --partition=urgent --ntasks=2 --output=/dev/null --wrap true
     for ((part = 1; part <= struck; part++)); do requeued "$part" "its turn"; done
     until_true 180 "the frame" test -f frame.exr
