@@ -85,8 +85,8 @@ void write_pictures(const CompareOptions& options, const Image& image, const Ima
             pictures.emplace_back(file, kind.draw(image, reference, comparison));
     for (const auto& [file, drawn] : pictures) {
         // Values that are not finite are the same in both images, and the report counts them.
-        static_cast<void>(
-            write_image(file, WholeImage(drawn), {.exr = {.existing = existing_files(options.force)}}));
+        static_cast<void>(write_image(file, WholeImage(drawn),
+                                      {.exr = {.existing = existing_files(options.force)}}));
     }
 }
 
