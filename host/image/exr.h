@@ -51,7 +51,7 @@ bool is_written_as(const std::string& file, const ExrOptions& options);
 /// nearest integer, of what is outside its range the nearest end, of NaN 0. Values that are merely
 /// rounded, or too small for the format, are not counted. An int64 beyond 32 bits is stored as its
 /// decimal digits, since EXR has no wider integer. Throws OutputError where the folder or the disk
-/// refuses.
+/// refuses. What the rows throw is thrown on, and no file is there.
 [[nodiscard]] std::vector<Misfits> write_exr(const std::string& file, const ImageRows& image,
                                              const ExrOptions& options = {});
 [[nodiscard]] inline std::vector<Misfits> write_exr(const std::string& file, const Image& image,

@@ -21,6 +21,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 namespace parhelion {
@@ -169,6 +170,10 @@ std::vector<Misfits> write_exr(const std::string& file, const ImageRows& image,
         misfits = write_stream(pending.temporary_name(), file, image, options);
     } catch (const std::invalid_argument&) {
         throw; // a mistake of the caller, not of the disk
+    } catch (const InputError&) {
+        throw; // of what the rows are made of
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         throw OutputError(file + ": cannot write: " + error.what());
     }

@@ -200,3 +200,29 @@ TEST_CASE("PNG: luminance is grey, XYZ is converted, anything else is refused") 
                Catch::Contains("needs channels R G B"));
     CHECK(folder.entries() == 2);
 }
+
+TEST_CASE("Output: rows that cannot be made are no fault of the disk, and leave what was there") {
+    const TemporaryFolder folder;
+    Image frame = make_image(1, 512);
+    for (const char* name : {"R", "G", "B"})
+        add_channel(frame, name, std::vector<float>(512));
+    /// The upper half alone can be read.
+    struct Damaged : WholeImage {
+        using WholeImage::WholeImage;
+        Image rows(int first, int count) const override {
+            if (first + count > 256) throw InputError("row 256 is damaged");
+            return WholeImage::rows(first, count);
+        }
+    };
+    const Damaged image(frame);
+    for (const std::string name : {"a.exr", "a.png"}) {
+        write_bytes(folder.file(name), {'o', 'l', 'd'});
+        const auto write = [&] {
+            return name == "a.exr" ? write_exr(folder.file(name), image)
+                                   : write_png(folder.file(name), image);
+        };
+        CHECK(refusal<InputError>(write) == "row 256 is damaged");
+        CHECK(read_bytes(folder.file(name)) == std::vector<char>{'o', 'l', 'd'});
+    }
+    CHECK(folder.entries() == 2);
+}
