@@ -44,6 +44,13 @@ struct Option {
     OptionRules rules{};
 };
 
+/// The options under a heading of their own in the help.
+inline std::vector<Option> in_group(const std::string& heading, std::vector<Option> options) {
+    for (Option& option : options)
+        option.rules.group = heading;
+    return options;
+}
+
 struct Subcommand {
     std::string name{}, summary{};
     std::string examples{}; ///< printed below the options

@@ -55,9 +55,9 @@ void write_merged(const MergeCommand& command, const FilmHeader& header, const F
         write_film(command.output, header, sums, existing_files(command.force));
         return;
     }
-    WriteOptions options{command.exposure.value_or(0.0), exr_options(command.form, header.content)};
-    options.exr.existing = existing_files(command.force);
-    static_cast<void>(write_picture(command.output, header, sums, options)); // it is told
+    static_cast<void>(write_picture(command.output, header, sums,
+                                    write_options(command.form, header.content, command.exposure,
+                                                  existing_files(command.force)))); // it is told
 }
 
 } // namespace

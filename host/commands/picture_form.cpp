@@ -158,4 +158,11 @@ ExrOptions exr_options(const PictureForm& form, const FilmContent& content) {
     return options;
 }
 
+WriteOptions write_options(const PictureForm& form, const FilmContent& content,
+                           std::optional<double> exposure, Existing existing) {
+    WriteOptions options{exposure.value_or(0.0), exr_options(form, content)};
+    options.exr.existing = existing;
+    return options;
+}
+
 } // namespace parhelion

@@ -3,7 +3,7 @@
 
 #include "host/commands/command_line.h"
 #include "host/film/film_content.h"
-#include "host/image/exr.h"
+#include "host/image/write_image.h"
 
 #include <optional>
 #include <string>
@@ -32,5 +32,8 @@ void check_picture_form(const PictureForm& form, const std::string& output);
 /// which has those up to 2048 alone. Throws InputError for a layer that there is not, that is named
 /// twice, or whose whole numbers the file would not hold.
 ExrOptions exr_options(const PictureForm& form, const FilmContent& content);
+/// The same, with what is said of previews and of files that exist.
+WriteOptions write_options(const PictureForm& form, const FilmContent& content,
+                           std::optional<double> exposure, Existing existing);
 
 } // namespace parhelion

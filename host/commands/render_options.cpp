@@ -139,68 +139,67 @@ std::vector<Option> light_options(RenderCommand& c) {
 }
 
 std::vector<Option> part_options(RenderCommand& c) {
-    std::vector<Option> options{
-        {"--checkpoint",
-         &c.checkpoint,
-         "Keep in this file, from time to time and at the end, what a later render needs to go on",
-         {.kind = ValueKind::file}},
-        {"--checkpoint-every",
-         &c.checkpoint_every,
-         "How often: 90, 90s, 1.5m, 2h",
-         {.needs = {"--checkpoint"}}},
-        {"--resume",
-         &c.resume,
-         "Go on from the checkpoint in this file, with as many samples or more; the picture has "
-         "the "
-         "bits of a render that was never stopped",
-         {.kind = ValueKind::file}},
-        {"--continue",
-         &c.goes_on,
-         "Go on from the file of --checkpoint, if it is there",
-         {.needs = {"--checkpoint"}}},
-        {"--time-limit", &c.time_limit,
-         "Stop after so long (90, 90s, 1.5m, 2h) with what there is of the picture: exit code 99"},
-        {"--shard", &c.shard,
-         "Render part K of N, K/N, into a .film; `parhelion merge` makes of all parts the picture "
-         "that one render would have made, to the bit"},
-        {"--shard-by",
-         &c.shard_by,
-         "What is shared out: blocks of the picture (the default) or samples, in groups of 16",
-         {.needs = {"--shard"}, .words = words_of(sharding_names)}},
-    };
-    for (Option& option : options)
-        option.rules.group = "In parts, and going on";
-    return options;
+    return in_group(
+        "In parts, and going on",
+        {
+            {"--checkpoint",
+             &c.checkpoint,
+             "Keep in this file, from time to time and at the end, what a later render needs to go "
+             "on",
+             {.kind = ValueKind::file}},
+            {"--checkpoint-every",
+             &c.checkpoint_every,
+             "How often: 90, 90s, 1.5m, 2h",
+             {.needs = {"--checkpoint"}}},
+            {"--resume",
+             &c.resume,
+             "Go on from the checkpoint in this file, with as many samples or more; the picture "
+             "has "
+             "the "
+             "bits of a render that was never stopped",
+             {.kind = ValueKind::file}},
+            {"--continue",
+             &c.goes_on,
+             "Go on from the file of --checkpoint, if it is there",
+             {.needs = {"--checkpoint"}}},
+            {"--time-limit", &c.time_limit,
+             "Stop after so long (90, 90s, 1.5m, 2h) with what there is of the picture: exit code "
+             "99"},
+            {"--shard", &c.shard,
+             "Render part K of N, K/N, into a .film; `parhelion merge` makes of all parts the "
+             "picture "
+             "that one render would have made, to the bit"},
+            {"--shard-by",
+             &c.shard_by,
+             "What is shared out: blocks of the picture (the default) or samples, in groups of 16",
+             {.needs = {"--shard"}, .words = words_of(sharding_names)}},
+        });
 }
 
 std::vector<Option> trace_options(RenderCommand& c) {
-    std::vector<Option> options{
-        {"--trace",
-         &c.trace,
-         "Tell one sample vertex by vertex, and render nothing",
-         {.needs = {"--pixel", "--sample"}}},
-        {"--pixel",
-         &c.pixel,
-         "Its pixel, X,Y from the top left corner",
-         {.needs = {"--trace"}, .domain = pixel_domain}},
-        {"--sample",
-         &c.sample,
-         "Its number, from 0",
-         {.needs = {"--trace"}, .domain = sample_domain}},
-        {"--json",
-         &c.json_file,
-         "Tell it as JSON, into this file",
-         {.needs = {"--trace"}, .kind = ValueKind::file}},
-    };
-    for (Option& option : options)
-        option.rules.group = "One sample instead of an image";
-    return options;
+    return in_group("One sample instead of an image",
+                    {
+                        {"--trace",
+                         &c.trace,
+                         "Tell one sample vertex by vertex, and render nothing",
+                         {.needs = {"--pixel", "--sample"}}},
+                        {"--pixel",
+                         &c.pixel,
+                         "Its pixel, X,Y from the top left corner",
+                         {.needs = {"--trace"}, .domain = pixel_domain}},
+                        {"--sample",
+                         &c.sample,
+                         "Its number, from 0",
+                         {.needs = {"--trace"}, .domain = sample_domain}},
+                        {"--json",
+                         &c.json_file,
+                         "Tell it as JSON, into this file",
+                         {.needs = {"--trace"}, .kind = ValueKind::file}},
+                    });
 }
 
 std::vector<Option> of_split(std::vector<Option> options) {
-    for (Option& option : options)
-        option.rules.group = "How work is split (the image stays the same to the bit)";
-    return options;
+    return in_group("How work is split (the image stays the same to the bit)", std::move(options));
 }
 
 std::vector<Option> pool_options(RenderCommand& c) {

@@ -55,14 +55,12 @@ bool write_outputs(const RenderCommand& command, const FilmHeader& header, Sessi
     bool good = report.non_finite_samples == 0;
     if (!good) say(bad_sample_warning(command, report));
     const auto start = Clock::now();
-    if (writes_film(command)) {
+    if (writes_film(command))
         write_film(command.output, header, *session.film(), existing);
-    } else {
-        WriteOptions options{command.exposure.value_or(0.0),
-                             exr_options(command.form, header.content)};
-        options.exr.existing = existing;
-        report.misfits = write_picture(command.output, header, *session.film(), options);
-    }
+    else
+        report.misfits =
+            write_picture(command.output, header, *session.film(),
+                          write_options(command.form, header.content, command.exposure, existing));
     good &= report.misfits.empty();
     report.write_seconds = seconds_since(start);
     report.host_peak_bytes = peak_host_bytes();

@@ -61,6 +61,12 @@ void splat(const std::array<double, most_pixels>& x, const std::array<double, mo
                 std::llrint(x[i] * y[j] / coverage_unit);
 }
 
+/// Of a tile, which is sorted, the first weight in that cell or behind it.
+ShapeWeights::const_iterator first_from(const ShapeWeights& tile, int cell) {
+    return std::partition_point(tile.begin(), tile.end(),
+                                [cell](const ShapeWeight& w) { return w.place < cell; });
+}
+
 } // namespace
 
 CoverageTiles::CoverageTiles(const SampleWindow& window, const Film& crop,
@@ -117,12 +123,12 @@ void CoverageTiles::add_row(int y, ShapeWeights& row) const {
             // Of the tile's corner: its row of cells that is this one, and where that begins.
             const int cell_row = from_y - BLOCK_SIDE * tile_row + window_.reach;
             const int left = window_.block_x + BLOCK_SIDE * column - window_.reach - crop_.crop_x;
-            for (const ShapeWeight& w :
-                 tiles_[static_cast<std::size_t>(tile_row) * window_.blocks_x + column]) {
-                const int x = left + w.place % side;
-                if (w.place / side == cell_row && x >= 0 && x < crop_.crop_width)
-                    row.push_back({x, w.shape, w.weight});
-            }
+            const ShapeWeights& tile =
+                tiles_[static_cast<std::size_t>(tile_row) * window_.blocks_x + column];
+            for (auto w = first_from(tile, cell_row * side);
+                 w != tile.end() && w->place < (cell_row + 1) * side; ++w)
+                if (const int x = left + w->place % side; x >= 0 && x < crop_.crop_width)
+                    row.push_back({x, w->shape, w->weight});
         }
 }
 

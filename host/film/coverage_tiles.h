@@ -40,7 +40,7 @@ private:
     SampleWindow window_;
     Film crop_;
     std::vector<float> filter_;
-    std::vector<ShapeWeights> tiles_; ///< of each block; places are cells
+    std::vector<ShapeWeights> tiles_; ///< of each block, sorted; places are cells
 };
 
 } // namespace parhelion

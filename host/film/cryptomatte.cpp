@@ -144,6 +144,11 @@ std::vector<std::string> channel_layers(const CryptomatteLayer& layer, int depth
     return names;
 }
 
+void add_cryptomatte_header(const Cryptomatte& cryptomatte, Image& image) {
+    for (const CryptomatteLayer& layer : cryptomatte.layers)
+        add_header(layer, image);
+}
+
 void add_cryptomatte(const FilmSums& sums, const Cryptomatte& cryptomatte, int first_row,
                      Image& image) {
     if (cryptomatte.layers.empty()) return;
@@ -167,7 +172,6 @@ void add_cryptomatte(const FilmSums& sums, const Cryptomatte& cryptomatte, int f
         for (std::size_t c = 0; c < planes[l].size(); c++)
             add_channel(image, fmt::format("{}.{}", names[c / 4], component_names[c % 4]),
                         std::move(planes[l][c]));
-        add_header(layer, image);
     }
 }
 

@@ -41,8 +41,10 @@ std::uint32_t cryptomatte_id(std::string_view name);
 /// and B, A.
 std::vector<std::string> channel_layers(const CryptomatteLayer& layer, int depth);
 
-/// Adds the channels of all layers, and what the header says of them, to an image of the crop's
-/// rows from `first_row` on.
+/// Adds what the header of a picture says of all layers.
+void add_cryptomatte_header(const Cryptomatte& cryptomatte, Image& image);
+
+/// Adds the channels of all layers to an image of the crop's rows from `first_row` on.
 void add_cryptomatte(const FilmSums& sums, const Cryptomatte& cryptomatte, int first_row,
                      Image& image);
 

@@ -138,6 +138,7 @@ Image film_image(const FilmSums& sums, const FilmContent& content, int first_row
 FilmPicture::FilmPicture(const FilmSums& sums, const FilmContent& content)
     : sums_(sums), content_(content), frame_(film_image(sums, content, 0, 0)) {
     frame_.height = content.film.crop_height;
+    add_cryptomatte_header(content.cryptomatte, frame_);
 }
 
 } // namespace parhelion

@@ -208,6 +208,7 @@ TEST_CASE("Cryptomatte: names are ids of the file, and the header says which", "
         void add_row(int, int, SumRow&) const override {}
     };
     add_cryptomatte(Nothing(), mattes, 0, image);
+    add_cryptomatte_header(mattes, image);
     CHECK(image.channels.size() == 24);
     for (const Channel& channel : image.channels)
         CHECK(channel.values == std::vector<float>{0});
