@@ -22,4 +22,9 @@ inline ZeroPages zero_pages(std::size_t bytes) {
     return ZeroPages(p, UnmapPages{bytes});
 }
 
+/// Zeros again, with no memory behind them.
+inline void forget(const ZeroPages& pages) {
+    madvise(pages.get(), pages.get_deleter().bytes, MADV_DONTNEED);
+}
+
 } // namespace parhelion

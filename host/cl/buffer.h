@@ -113,6 +113,12 @@ public:
     void fill_zero(const cl::CommandQueue& queue) const {
         if (count_ > 0) queue.enqueueFillBuffer(handle_, cl_uchar{0}, 0, bytes());
     }
+    /// Zeros again, of one made by zeros(); nothing may be under way.
+    void zero_again(const cl::CommandQueue& queue) const {
+        if (pages_) return forget(pages_);
+        fill_zero(queue);
+        queue.finish();
+    }
     void write(const cl::CommandQueue& queue, const T* values) const {
         if (count_ > 0) queue.enqueueWriteBuffer(handle_, CL_TRUE, 0, bytes(), values);
     }

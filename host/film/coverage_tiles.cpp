@@ -70,8 +70,20 @@ ShapeWeights::const_iterator first_from(const ShapeWeights& tile, int cell) {
 } // namespace
 
 CoverageTiles::CoverageTiles(const SampleWindow& window, const Film& crop,
-                             std::vector<float> filter)
-    : window_(window), crop_(crop), filter_(std::move(filter)), tiles_(window.tiles()) {}
+                             std::vector<float> filter, int blocks)
+    : window_(window), crop_(crop), filter_(std::move(filter)),
+      tiles_(static_cast<std::size_t>(blocks)) {}
+
+void CoverageTiles::turn_to(int first) {
+    first_ = first;
+    for (ShapeWeights& tile : tiles_)
+        tile = {};
+}
+
+int CoverageTiles::end_tile_row() const {
+    return std::min(window_.blocks_y,
+                    first_tile_row() + static_cast<int>(tiles_.size()) / window_.blocks_x);
+}
 
 template<class Real>
 void CoverageTiles::add_block(const WaveBlock& block, int samples, const WaveHits<Real>& hits) {
@@ -88,7 +100,7 @@ void CoverageTiles::add_block(const WaveBlock& block, int samples, const WaveHit
         splat(x, y, BlockPixel(slot / samples), window_.reach,
               tile_of(met, static_cast<int>(hits.shape[slot]) - 1));
     }
-    ShapeWeights& tile = tiles_[static_cast<std::size_t>(block.block)];
+    ShapeWeights& tile = this->tile(block.block);
     const int cells = static_cast<int>(window_.tile_cells());
     for (const TileOfShape& of_shape : met)
         for (int cell = 0; cell < cells; cell++)
@@ -116,15 +128,15 @@ template void CoverageTiles::add_wave(std::span<const WaveBlock>, int, const Wav
 void CoverageTiles::add_row(int y, ShapeWeights& row) const {
     const int side = TILE_SIDE(window_.reach);
     const int from_y = y + crop_.crop_y - window_.block_y;
-    const int first = std::max(0, (from_y - window_.reach) / BLOCK_SIDE);
-    const int last = std::min(window_.blocks_y - 1, (from_y + window_.reach) / BLOCK_SIDE);
-    for (int tile_row = first; tile_row <= last; tile_row++)
+    const int first = std::max(first_tile_row(), (from_y - window_.reach) / BLOCK_SIDE);
+    const int end = std::min(end_tile_row(), (from_y + window_.reach) / BLOCK_SIDE + 1);
+    for (int tile_row = first; tile_row < end; tile_row++)
         for (int column = 0; column < window_.blocks_x; column++) {
             // Of the tile's corner: its row of cells that is this one, and where that begins.
             const int cell_row = from_y - BLOCK_SIDE * tile_row + window_.reach;
             const int left = window_.block_x + BLOCK_SIDE * column - window_.reach - crop_.crop_x;
             const ShapeWeights& tile =
-                tiles_[static_cast<std::size_t>(tile_row) * window_.blocks_x + column];
+                tiles_[static_cast<std::size_t>(tile_row) * window_.blocks_x + column - first_];
             for (auto w = first_from(tile, cell_row * side);
                  w != tile.end() && w->place < (cell_row + 1) * side; ++w)
                 if (const int x = left + w->place % side; x >= 0 && x < crop_.crop_width)
@@ -143,7 +155,7 @@ void CoverageTiles::add_film(const FilmSums& sums) {
             const int block = from_y / BLOCK_SIDE * window_.blocks_x + from_x / BLOCK_SIDE;
             const int cell =
                 (from_y % BLOCK_SIDE + window_.reach) * side + from_x % BLOCK_SIDE + window_.reach;
-            tiles_[static_cast<std::size_t>(block)].push_back({cell, w.shape, w.weight});
+            tile(block).push_back({cell, w.shape, w.weight});
         }
     }
     parallel_for(tiles_.size(), [&](std::size_t block) { add_up(tiles_[block]); });

@@ -20,8 +20,13 @@ struct WaveHits {
 
 class CoverageTiles {
 public:
-    /// `filter`: the values of the reconstruction filter (make_filter_values).
-    CoverageTiles(const SampleWindow& window, const Film& crop, std::vector<float> filter);
+    /// Of so many blocks at once, at first from block 0 on. `filter`: the values of the
+    /// reconstruction filter (make_filter_values).
+    CoverageTiles(const SampleWindow& window, const Film& crop, std::vector<float> filter,
+                  int blocks);
+
+    /// Forgets what there is, and goes on with the blocks from `first` on, whole rows of them.
+    void turn_to(int first);
 
     /// Adds a wave of as many samples of each of its blocks. Several may be added at once, if they
     /// have no block in common.
@@ -37,10 +42,16 @@ private:
     template<class Real>
     void add_block(const WaveBlock& block, int samples, const WaveHits<Real>& hits);
 
+    /// Of rows of tiles [first, end): those that are here.
+    int first_tile_row() const { return first_ / window_.blocks_x; }
+    int end_tile_row() const;
+    ShapeWeights& tile(int block) { return tiles_[static_cast<std::size_t>(block - first_)]; }
+
     SampleWindow window_;
     Film crop_;
     std::vector<float> filter_;
-    std::vector<ShapeWeights> tiles_; ///< of each block, sorted; places are cells
+    int first_ = 0;                   ///< block
+    std::vector<ShapeWeights> tiles_; ///< of each block from there on, sorted; places are cells
 };
 
 } // namespace parhelion

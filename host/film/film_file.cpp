@@ -62,21 +62,13 @@ void put_words(std::ostream& out, std::span<const std::uint32_t> words) {
               static_cast<std::streamsize>(words.size_bytes()));
 }
 
-bool is_zero(std::span<const std::uint32_t> words) {
-    return std::all_of(words.begin(), words.end(), [](std::uint32_t w) { return w == 0; });
-}
-
 /// Writes a row, if there is something in it.
-bool put_row(std::ostream& out, int y, int channel, const SumRow& row) {
-    int first = 0, end = EXACT_WORDS;
-    while (first < end && is_zero(row.digit(first)))
-        first++;
-    while (first < end && is_zero(row.digit(end - 1)))
-        end--;
-    if (first == end) return false;
-    const std::span digits(row.digit(first).data(), (end - first) * row.width());
-    RowBegin begin{static_cast<std::uint32_t>(y), static_cast<std::uint16_t>(channel),
-                   static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(end - first), 0};
+bool put_row(std::ostream& out, int y, int channel, SumRow& row) {
+    const DigitRange range = digits_in_use(row);
+    if (range.count == 0) return false;
+    const auto digits = row.digits(range);
+    RowBegin begin{static_cast<std::uint32_t>(y), static_cast<std::uint16_t>(channel), range.first,
+                   range.count, 0};
     begin.checksum = checksum_of(digits, begin.place());
     put(out, begin);
     put_words(out, digits);
@@ -139,7 +131,7 @@ std::string film_bytes(const FilmHeader& header, const FilmSums& sums) {
 
 struct FilmFile::Row {
     std::uint64_t at = 0; ///< of the digits; 0: there are none
-    std::uint8_t first = 0, count = 0;
+    DigitRange range;
     std::uint64_t checksum = 0;
 };
 
@@ -219,7 +211,7 @@ void FilmFile::find_rows() {
             throw InputError("a row lies outside of it");
         Row& known = rows_[row.y * channels + row.channel];
         if (known.at != 0) throw InputError("a row is there twice");
-        known = {at, row.first, row.count, row.checksum};
+        known = {at, {row.first, row.count}, row.checksum};
         at += 4 * width * row.count;
     }
 }
@@ -263,10 +255,10 @@ void FilmFile::add_row(int channel, int y, SumRow& row) const {
     const Row& known = rows_[y * header_.content.channels() + channel];
     if (known.at == 0) return;
     SumRow read_row(static_cast<int>(row.width()));
-    const std::span digits(read_row.digit(known.first).data(), known.count * row.width());
+    const auto digits = read_row.digits(known.range);
     read(known.at, digits.data(), digits.size_bytes());
     const RowBegin begin{static_cast<std::uint32_t>(y), static_cast<std::uint16_t>(channel),
-                         known.first, known.count, 0};
+                         known.range.first, known.range.count, 0};
     if (checksum_of(digits, begin.place()) != known.checksum)
         throw InputError(fmt::format("{}: is damaged in row {} of its picture", name_, y));
     add_digits(row, 0, row.width(), [&](int k) { return read_row.digit(k).data(); });

@@ -2,7 +2,15 @@
 // in bands, each of them a buffer.
 #include "host/film/film_layout.h"
 
+#include <algorithm>
+
 namespace parhelion {
+
+FilmLayout::Rows FilmLayout::band_rows(int band, const Film& crop) const {
+    const int top = window.block_y - crop.crop_y, side = band_blocks / window.blocks_x * BLOCK_SIDE;
+    return {std::clamp(top + band * side - window.reach, 0, crop.crop_height),
+            std::clamp(top + (band + 1) * side + window.reach, 0, crop.crop_height)};
+}
 
 FilmLayout in_bands(FilmLayout layout, std::size_t bytes) {
     auto of_rows = [&](int rows) {

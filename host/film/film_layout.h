@@ -29,6 +29,12 @@ struct FilmLayout {
         return RESULT_CHANNELS(aov_channels, window.reach > 0, shape_ids);
     }
 
+    /// The rows of a crop in which the pixels of a band's tiles are.
+    struct Rows {
+        int first, end;
+    };
+    Rows band_rows(int band, const Film& crop) const;
+
     /// Words from one digit of a sum to the next.
     std::size_t stride() const { return odd_lines(band_blocks * window.tile_cells()); }
     std::size_t channel_words() const { return EXACT_WORDS * stride(); }

@@ -5,6 +5,7 @@
 #include "host/film/coverage.h"
 #include "kernels/shared/types.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,10 @@
 #include <vector>
 
 namespace parhelion {
+
+struct DigitRange {
+    std::uint8_t first = 0, count = 0;
+};
 
 /// Digits of the sums of a channel over a row of pixels (kernels/shared/exact_sum.h): first the
 /// lowest of all pixels, then the next.
@@ -24,12 +29,19 @@ public:
     std::span<const std::uint32_t> digit(int k) const {
         return std::span(words_).subspan(k * width_, width_);
     }
+    /// Those of a range, of all pixels.
+    std::span<std::uint32_t> digits(DigitRange range) {
+        return std::span(words_).subspan(range.first * width_, range.count * width_);
+    }
     void clear() { std::fill(words_.begin(), words_.end(), 0u); }
 
 private:
     std::size_t width_;
     std::vector<std::uint32_t> words_;
 };
+
+/// From the first to the last digit that is not 0 in all of a row; none of a row of zeros.
+DigitRange digits_in_use(const SumRow& row);
 
 /// Adds numbers to `count` sums. `digit(k)`: the k-th digits of the numbers, in a row.
 template<class Digit>

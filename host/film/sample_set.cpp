@@ -124,4 +124,9 @@ SampleSet samples_between(const SampleSet& set, int first, int end) {
     return set & SampleSet{{0, std::numeric_limits<int>::max(), first, end}};
 }
 
+SampleSet blocks_between(const SampleSet& set, int first, int end) {
+    if (first >= end) return {};
+    return set & SampleSet{{first, end, 0, std::numeric_limits<int>::max()}};
+}
+
 } // namespace parhelion

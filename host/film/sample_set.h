@@ -35,5 +35,7 @@ int fewest_samples(const SampleSet& set, int blocks);
 
 /// Those whose numbers are in [first, end).
 SampleSet samples_between(const SampleSet& set, int first, int end);
+/// Those of the blocks [first, end).
+SampleSet blocks_between(const SampleSet& set, int first, int end);
 
 } // namespace parhelion

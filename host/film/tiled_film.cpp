@@ -39,8 +39,9 @@ void TiledFilm::add_tile(int channel, int column, int tile_row, int y, SumRow& r
     const int from = std::max(0, left), end = std::min(crop_.crop_width, left + side);
     if (from >= end) return;
     const int block = tile_row * window.blocks_x + column;
-    const std::uint32_t* cells =
-        &bands_[block / layout_.band_blocks][tile_begin(layout_, channel, block)];
+    const std::span band = bands_[block / layout_.band_blocks];
+    if (band.empty()) return;
+    const std::uint32_t* cells = &band[tile_begin(layout_, channel, block)];
     cells += (y - top) * side + (from - left);
     add_digits(row, from, end - from, [&](int k) { return cells + k * layout_.stride(); });
 }

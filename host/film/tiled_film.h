@@ -9,7 +9,8 @@ namespace parhelion {
 
 class TiledFilm : public FilmSums {
 public:
-    /// The bands' words and what is known of shapes (null: nothing), which must outlive it.
+    /// The bands' words (none of those that are not there) and what is known of shapes (null:
+    /// nothing), which must outlive it.
     TiledFilm(std::vector<std::span<const std::uint32_t>> bands, const FilmLayout& layout,
               const Film& crop, const CoverageTiles* coverage = nullptr);
 

@@ -20,10 +20,14 @@ public:
     /// order.
     virtual Image rows(int first, int count) const = 0;
 
-    /// Rows to take at a time: whole blocks of 16, as EXR's ZIP compresses them.
+    /// Rows to take at a time: whole blocks of 16, as EXR's ZIP compresses them, and no more than
+    /// 16 MB of values if there are several.
     int band_rows() const {
-        constexpr int most = 256, pixels = 1 << 20;
-        return std::min(most, std::max(1, pixels / 16 / frame().width) * 16);
+        constexpr std::size_t most = 256, values = 1 << 22, block = 16;
+        const std::size_t of_block =
+            block * frame().width * std::max<std::size_t>(4, frame().channels.size());
+        return static_cast<int>(
+            std::min(most, std::max<std::size_t>(1, values / of_block) * block));
     }
 };
 

@@ -22,6 +22,7 @@ struct RenderOptions {
     bool portable = false; ///< kernels without x86 intrinsics
     LightChoice light_choice = LightChoice::importance;
     bool checked = false; ///< kernels look after the bounds of buffers: slowly, with one stream
+    std::string scratch = "."; ///< folder for a film that is more than fits into memory
     bool all_features = false; ///< kernels that can do everything, whatever the scene needs
 };
 

@@ -24,9 +24,15 @@ public:
     virtual void trace(WaveSchedule& schedule, const std::function<void()>& on_wave) = 0;
     virtual WaveLimits wave_limits() const = 0;
 
+    /// Of how many blocks, from a multiple of that number on, the film is in memory at once.
+    virtual int blocks_at_once() const = 0;
+    /// What is traced next is of the blocks from there on. What there is of others stays on the
+    /// film. Throws OutputError where it has no room on the disk.
+    virtual void turn_to(int first_block) = 0;
+
     /// As it is, for as long as it is looked at.
     virtual std::unique_ptr<FilmSums> film() = 0;
-    /// In the place of nothing.
+    /// In the place of nothing. Throws OutputError likewise.
     virtual void fill_film(const FilmSums& sums) = 0;
 
     virtual TraceCounts counts() = 0;

@@ -28,7 +28,8 @@ public:
           params_(render_params(scene, scene_, sizes, aovs)),
           features_(render_features(scene_, options)) {
         if (sizes_.film.shape_ids)
-            coverage_.emplace(sizes_.film.window, crop_, scene_.filter_values);
+            coverage_.emplace(sizes_.film.window, crop_, scene_.filter_values,
+                              sizes_.film.blocks());
     }
 
     void trace(WaveSchedule& schedule, const std::function<void()>& on_wave) override {
@@ -37,6 +38,8 @@ public:
                     [&](TwinWaves<Real>&, const Wave& wave) { gather_hits(wave); });
     }
     WaveLimits wave_limits() const override { return sizes_.wave_limits(); }
+    int blocks_at_once() const override { return sizes_.film.blocks(); }
+    void turn_to(int) override {}
 
     std::unique_ptr<FilmSums> film() override {
         return std::make_unique<TiledFilm>(

@@ -127,6 +127,7 @@ nlohmann::json to_json(const RenderReport& r) {
              {{"device_scene_bytes", r.device_scene_bytes},
               {"device_pool_bytes", r.device_pool_bytes},
               {"device_film_bytes", r.device_film_bytes},
+              {"film_scratch_bytes", r.film_scratch_bytes},
               {"host_peak_bytes", r.host_peak_bytes},
               {"compiler_peak_bytes", r.compiler_peak_bytes}}},
             {"features", r.features},

@@ -41,7 +41,8 @@ struct RenderReport {
     std::vector<Misfits> misfits;       ///< values that the written file does not hold as they are
     std::uint64_t primitives = 0, lights = 0;
     std::uint64_t device_scene_bytes = 0, device_pool_bytes = 0, device_film_bytes = 0,
-                  host_peak_bytes = 0,
+                  film_scratch_bytes = 0, ///< of a film on the disk; 0: it is in memory
+        host_peak_bytes = 0,
                   compiler_peak_bytes = 0; ///< of a second process that compiled kernels; 0: none
     std::vector<std::string> features, skipped_features;
     std::map<std::string, std::string> feature_reasons; ///< what was found that decides each

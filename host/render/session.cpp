@@ -39,11 +39,28 @@ Session::Session(OpenedRender opened, const Shard& shard, Progress& progress)
 void Session::plan() {
     const SampleSet todo = all_ - taken_up_.samples;
     const int samples = opened_.samples_per_pixel, whole = whole_samples(samples);
-    const WaveLimits limits = opened_.engine->wave_limits();
-    groups_ = std::make_unique<WaveSchedule>(samples_between(todo, 0, whole), limits);
-    rest_ = std::make_unique<WaveSchedule>(samples_between(todo, whole, samples), limits);
+    groups_ = passes_of(samples_between(todo, 0, whole));
+    rest_ = passes_of(samples_between(todo, whole, samples));
     todo_ = sample_count(todo);
     has_rest_ = !samples_between(taken_up_.samples, whole, samples).empty();
+}
+
+Session::Passes Session::passes_of(const SampleSet& todo) const {
+    const Engine& engine = *opened_.engine;
+    Passes passes;
+    for (int first = 0; first < opened_.blocks; first += engine.blocks_at_once()) {
+        const SampleSet some = blocks_between(todo, first, first + engine.blocks_at_once());
+        if (!some.empty())
+            passes.push_back({first, std::make_unique<WaveSchedule>(some, engine.wave_limits())});
+    }
+    return passes;
+}
+
+std::int64_t Session::left_of(const Passes& passes) {
+    std::int64_t left = 0;
+    for (const Pass& pass : passes)
+        left += pass.schedule->left();
+    return left;
 }
 
 void Session::take_up(const FilmSums& film, const FilmState& state) {
@@ -61,17 +78,21 @@ void Session::step(const std::function<bool()>& stop) {
         progress_.start("rendering", opened_.place);
         started_ = Clock::now();
     }
-    const bool in_rest = groups_->left() == 0;
+    const bool in_rest = groups_finished();
     if (in_rest) has_rest_ = true;
-    WaveSchedule& schedule = in_rest ? *rest_ : *groups_;
+    bool stopped = false;
     const auto start = Clock::now();
-    schedule.go_on();
-    opened_.engine->trace(schedule, [&] {
-        if (stop()) schedule.stop();
-        const auto done = static_cast<double>(todo_ - left());
-        progress_.update(done / static_cast<double>(todo_),
-                         done * BLOCK_PIXELS / seconds_since(*started_));
-    });
+    for (const Pass& pass : in_rest ? rest_ : groups_) {
+        if (stopped || pass.schedule->left() == 0) continue;
+        pass.schedule->go_on();
+        opened_.engine->turn_to(pass.first_block);
+        opened_.engine->trace(*pass.schedule, [&] {
+            if (stop()) stopped = true, pass.schedule->stop();
+            const auto done = static_cast<double>(todo_ - left());
+            progress_.update(done / static_cast<double>(todo_),
+                             done * BLOCK_PIXELS / seconds_since(*started_));
+        });
+    }
     seconds_ += seconds_since(start);
 }
 
@@ -81,9 +102,13 @@ double Session::share() const {
 }
 
 FilmState Session::state() {
+    SampleSet done;
+    for (const Passes* passes : {&groups_, &rest_})
+        for (const Pass& pass : *passes)
+            done = done | pass.schedule->done();
     FilmState state = taken_up_;
     const TraceCounts counts = opened_.engine->counts();
-    state.add({groups_->done() | rest_->done(), counts,
+    state.add({done, counts,
                non_finite_samples(counts) > 0 ? opened_.engine->bad_samples()
                                               : std::vector<BadSample>{}});
     return state;

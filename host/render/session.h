@@ -40,7 +40,7 @@ public:
     /// Of the session's samples those that are on the film, 0 to 1.
     double share() const;
     /// Whether all whole groups are on the film.
-    bool groups_finished() const { return groups_->left() == 0; }
+    bool groups_finished() const { return left_of(groups_) == 0; }
 
     const FilmContent& content() const { return opened_.content; }
     int blocks() const { return opened_.blocks; }
@@ -54,14 +54,23 @@ public:
     RenderReport report();
 
 private:
+    /// Of blocks whose film is in memory together.
+    struct Pass {
+        int first_block;
+        std::unique_ptr<WaveSchedule> schedule;
+    };
+    using Passes = std::vector<Pass>;
+
     void plan();
-    std::int64_t left() const { return groups_->left() + rest_->left(); }
+    Passes passes_of(const SampleSet& todo) const;
+    static std::int64_t left_of(const Passes& passes);
+    std::int64_t left() const { return left_of(groups_) + left_of(rest_); }
 
     OpenedRender opened_;
     Progress& progress_;
     SampleSet all_;
     FilmState taken_up_;
-    std::unique_ptr<WaveSchedule> groups_, rest_;
+    Passes groups_, rest_; ///< one after the other
     std::int64_t todo_ = 0;
     bool has_rest_ = false; ///< samples of a group that is not whole
     std::optional<Clock::time_point> started_;

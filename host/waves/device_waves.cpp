@@ -12,7 +12,7 @@ void DeviceWaves::upload(const DeviceScene& scene) {
 }
 
 void DeviceWaves::allocate(const WorkSizes& s, const RenderParams& params) {
-    for (int band = 0; band < s.film.bands(); band++)
+    for (int band = 0; band < s.bands_at_once; band++)
         films_.push_back(
             Buffer<cl_uint>::zeros(device_.context, device_.queue, "film", buffer_counts(s).film));
     for (int i = 0; i < s.streams; i++) {

@@ -29,6 +29,11 @@ public:
             views.emplace_back(device_.queue, film);
         return views;
     }
+    /// While nothing is traced.
+    void clear_films() const {
+        for (const Buffer<cl_uint>& film : films_)
+            film.zero_again(device_.queue);
+    }
     /// STATISTICS and FAULTS of each segment of all streams.
     std::vector<ulong> read_statistics();
     /// The first ones of all, as first_bad_samples has them.

@@ -42,7 +42,7 @@ void WaveStream::begin_wave(const Wave& wave) {
     for (cl::Kernel& kernel : kernels_)
         kernel.setArg(wave_argument, params);
     kernels_[static_cast<std::size_t>(Stage::accumulate)].setArg(
-        film_argument, films_[static_cast<std::size_t>(wave.band)]);
+        film_argument, films_[static_cast<std::size_t>(wave.band) % films_.size()]);
 }
 
 void WaveStream::launch(Stage stage, int depth, int work_items) {

@@ -23,7 +23,7 @@ public:
     WaveStream(const RenderDevice& device, const StagePrograms& programs, const WorkSizes& sizes);
 
     /// Binds buffers and parameters to every kernel. `films`: bands of one size, of the sizes'
-    /// layout; they must outlive the stream.
+    /// layout, all or as many as are in memory at once; they must outlive the stream.
     void bind(const SceneBuffers& scene, const std::vector<Buffer<cl_uint>>& films,
               const RenderParams& params);
 

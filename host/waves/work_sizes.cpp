@@ -19,6 +19,7 @@ int rounded_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
 WorkSizes work_sizes(const FilmLayout& film, int samples, int lanes, const WorkSplit& split) {
     WorkSizes s;
     s.film = film;
+    s.bands_at_once = split.bands_in_turn ? 1 : film.bands();
     s.streams = split.streams;
     s.work_group_size = split.work_group_size;
     // What is added up together must be in one wave.

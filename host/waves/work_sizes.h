@@ -15,6 +15,7 @@ struct WorkSplit {
     int work_group_size = 1;
     int streams = 0; ///< waves under way at once, which share the pool; 0: what suits the device
     std::size_t film_bytes = 0; ///< of a band of the film; 0: what suits the device
+    bool bands_in_turn = false; ///< one band of the film at a time is in memory
 };
 
 /// Sizes that follow from film, samples and split, of one stream.
@@ -24,6 +25,7 @@ struct WorkSizes {
     int segments = 1, segment_size = 16, segment_stride = 32;
     int work_group_size = 1;
     FilmLayout film;
+    int bands_at_once = 1; ///< of the film, in memory
 
     /// Floats from one channel of the results, or word of a state, to the next.
     std::size_t result_stride() const { return odd_lines(path_capacity); }

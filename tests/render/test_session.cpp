@@ -41,10 +41,16 @@ Scene scene_of(FilterKind filter, int samples) {
     return scene;
 }
 
-RenderOptions split_by(int pool_paths, int lanes, std::size_t film_bytes = 0) {
+/// Of the film in memory.
+enum class Bands { at_once, in_turn };
+
+RenderOptions split_by(int pool_paths, int lanes, std::size_t film_bytes = 0,
+                       Bands bands = Bands::at_once) {
     RenderOptions options;
     options.split.pool_paths = pool_paths;
     options.split.film_bytes = film_bytes;
+    options.split.bands_in_turn = bands == Bands::in_turn;
+    options.scratch = std::filesystem::temp_directory_path();
     options.lanes = lanes;
     return options;
 }
@@ -109,7 +115,8 @@ TEST_CASE("A render that is stopped after every few waves and goes on from files
             // No two of them alike.
             const RenderOptions options =
                 split_by(3000 + 1500 * (sessions % 5), sessions % 2 == 0 ? 16 : 8,
-                         sessions % 3 == 0 ? 100'000 : 0);
+                         sessions % 3 == 0 ? 100'000 : 0,
+                         sessions % 2 == 0 ? Bands::in_turn : Bands::at_once);
             Opened opened(scene, options);
             Session& session = opened.session;
             const std::string file = folder.file("kept.film");
@@ -177,7 +184,8 @@ TEST_CASE("Parts of a render add up to it, however each was made", "[render]") {
                     const std::string file = folder.file(fmt::format("{}.film", number));
                     render_part(scene,
                                 split_by(2000 + 900 * number, number % 3 == 0 ? 8 : 16,
-                                         number % 4 == 1 ? 150'000 : 0),
+                                         number % 4 == 1 ? 150'000 : 0,
+                                         number % 8 == 1 ? Bands::in_turn : Bands::at_once),
                                 {number, count, by}, file);
                     parts.emplace_back(file);
                 }
@@ -207,4 +215,23 @@ TEST_CASE("A film in bands is the same bits as in one", "[render]") {
         for (const std::size_t bytes : {1, 60'000, 400'000})
             CHECK(differing(whole, render_quietly(scene, split_by(5000, 16, bytes)).image) == 0);
     }
+}
+
+TEST_CASE("A film of which one band at a time is in memory is the same bits, with all its layers",
+          "[render]") {
+    for (const FilterKind filter : {FilterKind::box, FilterKind::lanczos})
+        for (const int samples : {5, 20}) { // no whole groups, and whole ones and the rest of one
+            Scene scene = scene_of(filter, samples);
+            scene.integrator.aovs = {{"albedo", "albedo", {}}, {"variance", "variance", {}}};
+            scene.integrator.cryptomatte.objects = true;
+            scene.film.crop_x += 3, scene.film.crop_y += 5;
+            scene.film.crop_width -= 6, scene.film.crop_height -= 9;
+            const Image whole = render_quietly(scene).image;
+            for (const std::size_t bytes : {1, 400'000, 1 << 30}) {
+                const RenderResult result =
+                    render_quietly(scene, split_by(5000, 16, bytes, Bands::in_turn));
+                CHECK(differing(whole, result.image) == 0);
+                CHECK((result.report.film_scratch_bytes > 0) == (bytes < 1 << 30));
+            }
+        }
 }
