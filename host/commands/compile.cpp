@@ -67,7 +67,7 @@ int run_compile(const CompileCommand& c) {
     if (programs.size() == 1) {
         cached = compile_program(device, programs.front(), options, notes);
     } else {
-        device.compile_beside = compile_in_own_process(device.device);
+        if (several_threads()) device.compile_beside = compile_in_own_process(device.device);
         StagePrograms compiled = compile_stages(device, options);
         notes = compiled.notes;
         for (const StageReport& stage : compiled.reports)
@@ -104,9 +104,12 @@ std::vector<std::string> own_command(const Device& device, ProgramGroup group,
 
 } // namespace
 
-CompileBeside compile_in_own_process(const Device& device) {
+bool several_threads() {
     using tbb::global_control;
-    if (global_control::active_value(global_control::max_allowed_parallelism) < 2) return {};
+    return global_control::active_value(global_control::max_allowed_parallelism) > 1;
+}
+
+CompileBeside compile_in_own_process(const Device& device) {
     return [device](ProgramGroup group, const StageOptions& options,
                     const std::filesystem::path& cache_folder) {
         return ChildProcess::start(own_command(device, group, options),

@@ -6,8 +6,10 @@
 
 namespace parhelion {
 
-/// Compiles a program by this subcommand in a process of this program's own. Empty where there is
-/// only one processor, or one thread is allowed, to do it.
+/// Whether there are several processors, and threads allowed, to compile side by side.
+bool several_threads();
+
+/// Compiles a program by this subcommand in a process of this program's own.
 CompileBeside compile_in_own_process(const Device& device);
 
 Subcommand compile_subcommand();

@@ -2,9 +2,11 @@
 #include "host/commands/render.h"
 
 #include "host/clock.h"
+#include "host/commands/byte_size.h"
 #include "host/commands/cache_help.h"
 #include "host/commands/compile.h"
 #include "host/commands/frame_checks.h"
+#include "host/commands/machine.h"
 #include "host/commands/render_frames.h"
 #include "host/commands/render_key.h"
 #include "host/commands/render_outputs.h"
@@ -13,6 +15,7 @@
 #include "host/error.h"
 #include "host/image/distinct_files.h"
 #include "host/image/output.h"
+#include "host/memory_use.h"
 #include "host/progress.h"
 #include "host/render/host_render.h"
 #include "host/scene/load.h"
@@ -43,10 +46,20 @@ void limit_threads(int threads) {
     if (threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
 }
 
+/// What the next render may want takes memory of this one.
+bool has_room_to_keep(const RenderCommand& command) {
+    return !command.memory ||
+           resident_host_bytes() < parse_byte_size("--memory", *command.memory) / 2;
+}
+
 Scene read(const RenderCommand& command, SharedWork& work) {
-    work.meshes.next_scene();
     LoadOptions options = work.messages.guarded(load_options(command));
-    options.meshes = work.several ? &work.meshes : nullptr;
+    const bool keeps = work.several && has_room_to_keep(command);
+    if (keeps)
+        work.meshes.next_scene();
+    else
+        work.forget_scenes();
+    options.meshes = keeps ? &work.meshes : nullptr;
     Scene scene = load_scene(command.scene_file, options);
     apply_overrides(command, scene);
     check_distinct(outputs_of(command), files_of(scene));
@@ -81,16 +94,27 @@ std::optional<Existing> existing_of(const RenderCommand& command, const Scene& s
 RenderDevice& device_of(const RenderCommand& command, SharedWork& work) {
     if (!work.device) {
         work.device = &open_to_the_end(choose_device(command.device));
-        work.device->compile_beside = compile_in_own_process(work.device->device);
+        work.device->saves_memory = command.memory.has_value();
+        if (command.memory || several_threads())
+            work.device->compile_beside = compile_in_own_process(work.device->device);
         work.device->keeps_scenes = work.several;
     }
     return *work.device;
 }
 
+RenderOptions options_of(const RenderCommand& command) {
+    RenderOptions options = command.options;
+    if (command.memory) options.memory = parse_byte_size("--memory", *command.memory);
+    options.group_memory = cgroup_limits().memory_bytes.value_or(0);
+    options.scratch = command.scratch.empty() ? folder_of_output(command.output) : command.scratch;
+    return options;
+}
+
 OpenedRender open_where_asked(const RenderCommand& command, const Scene& scene, SharedWork& work) {
+    const RenderOptions options = options_of(command);
     if (in_double(command))
-        return open_on_host(scene, command.options, Precision::double_precision, work.progress);
-    return open_on_device(scene, device_of(command, work), command.options, work.progress);
+        return open_on_host(scene, options, Precision::double_precision, work.progress);
+    return open_on_device(scene, device_of(command, work), options, work.progress);
 }
 
 /// The film to go on from, if there is one. Throws InputError where it is of another render.

@@ -38,6 +38,8 @@ struct RenderCommand {
     int threads = 0; ///< 0: all
     bool next_event = true, energy_compensation = true;
     std::optional<std::string> shard, shard_by, time_limit; ///< K/N, what is shared out, duration
+    std::optional<std::string> memory;
+    std::string scratch; ///< folder; "": that of the output
     std::string checkpoint, checkpoint_every = "60s", resume;
     bool goes_on = false;              ///< from the checkpoint's file, if it is there
     std::optional<std::string> frames; ///< "1-10"

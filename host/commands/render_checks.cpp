@@ -1,4 +1,5 @@
 // What the options of `parhelion render` cannot be whatever the scene.
+#include "host/commands/byte_size.h"
 #include "host/commands/duration.h"
 #include "host/commands/render.h"
 #include "host/error.h"
@@ -15,6 +16,9 @@ namespace {
 
 void check_parts(const RenderCommand& command) {
     if (!command.checkpoint.empty()) parse_duration("--checkpoint-every", command.checkpoint_every);
+    if (command.memory) parse_byte_size("--memory", *command.memory);
+    if (command.memory && in_double(command))
+        throw InputError("--memory: double precision, on the host, takes what it needs");
     if (command.time_limit) parse_duration("--time-limit", *command.time_limit);
     if (command.goes_on && !command.resume.empty())
         throw InputError("--continue: --resume names another film to go on from; give one of them");

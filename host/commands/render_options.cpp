@@ -176,6 +176,20 @@ std::vector<Option> part_options(RenderCommand& c) {
         });
 }
 
+std::vector<Option> memory_options(RenderCommand& c) {
+    return in_group(
+        "Memory", {
+                      {"--memory", &c.memory,
+                       "Memory that the program and the device may take, each: 512M, 2G; the pool "
+                       "and what of the film is in memory become smaller, and what needs more is "
+                       "refused"},
+                      {"--scratch",
+                       &c.scratch,
+                       "Folder for a film that is more than fits into memory (that of the output)",
+                       {.kind = ValueKind::folder}},
+                  });
+}
+
 std::vector<Option> trace_options(RenderCommand& c) {
     return in_group("One sample instead of an image",
                     {
@@ -255,7 +269,7 @@ std::vector<Option> render_options(RenderCommand& c) {
     std::vector<Option> options = sampling_options(c);
     for (const std::vector<Option>& more :
          {image_options(c), picture_form_options(c.form), frame_options(c), part_options(c),
-          trace_options(c), kernel_options(c), pool_options(c)})
+          memory_options(c), trace_options(c), kernel_options(c), pool_options(c)})
         append(options, more);
     return options;
 }

@@ -81,6 +81,7 @@ void check_outputs(const RenderCommand& command) {
         check_film_output(command.output, may_exist);
     else
         check_output(command.output, may_exist);
+    if (!command.scratch.empty()) check_output_file(command.scratch + "/scratch", true);
     if (!command.stats_file.empty()) check_output_file(command.stats_file, command.force || left);
     if (!command.checkpoint.empty())
         check_output_file(command.checkpoint,

@@ -5,6 +5,7 @@
 #include "host/commands/duration.h"
 #include "host/commands/render_outputs.h"
 #include "host/json_text.h"
+#include "host/memory_use.h"
 #include "host/render/checkpoints.h"
 #include "host/stop_signals.h"
 #include "host/streams.h"
@@ -34,6 +35,14 @@ std::string run(const RenderCommand& command, Clock::time_point started, Session
             checkpoints.save(session);
     }
     return session.finished() ? "" : reason;
+}
+
+/// Of a film: that of a picture of 3840 x 2160, whose copy takes half a gigabyte, has it.
+bool has_room_for_copy(const RenderCommand& command, const FilmContent& content) {
+    constexpr std::int64_t most_sums = 100'000'000;
+    const std::int64_t sums =
+        std::int64_t{content.film.crop_width} * content.film.crop_height * content.channels();
+    return !command.memory && sums <= most_sums;
 }
 
 std::string stopped_text(const RenderCommand& command, const FilmHeader& header,
@@ -76,7 +85,8 @@ ExitCode render_session(const RenderCommand& command, Clock::time_point started,
                         FilmHeader header, Existing existing) {
     note_signals();
     Checkpoints checkpoints(command.checkpoint,
-                            parse_duration("--checkpoint-every", command.checkpoint_every), header);
+                            parse_duration("--checkpoint-every", command.checkpoint_every), header,
+                            has_room_for_copy(command, header.content));
     const std::string reason = run(command, started, session, checkpoints);
     const bool kept = checkpoints.finish();
     header.state = session.state();

@@ -20,6 +20,12 @@ struct SharedWork {
     RenderDevice* device = nullptr; ///< with its programs and texels; null: not opened yet
     KeptMeshes meshes{};
     FileDigests digests{};
+
+    /// What is kept of scenes.
+    void forget_scenes() {
+        meshes = {};
+        if (device) device->scene.reset();
+    }
 };
 
 /// Whether its output is there already, whole. Throws InputError for a scene that cannot be used,

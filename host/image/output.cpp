@@ -86,6 +86,10 @@ std::string followed_links(const std::string& file) {
     throw InputError(file + ": a symbolic link that leads nowhere");
 }
 
+std::string folder_of_output(const std::string& file) {
+    return folder_of(followed_links(file)).string();
+}
+
 void check_output_file(const std::string& file, bool force) {
     if (file == "-")
         throw InputError(

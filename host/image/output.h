@@ -27,6 +27,9 @@ void check_output_file(const std::string& file, bool force);
 /// InputError for links without one.
 std::string followed_links(const std::string& file);
 
+/// The folder that the file is in, or will be, links followed.
+std::string folder_of_output(const std::string& file);
+
 /// Writes a whole text file as PendingFile does. Throws OutputError.
 void write_text_file(const std::string& file, const std::string& text, Existing existing);
 

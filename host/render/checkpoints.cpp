@@ -8,8 +8,8 @@
 
 namespace parhelion {
 
-Checkpoints::Checkpoints(std::string file, double seconds, FilmHeader header)
-    : file_(std::move(file)), seconds_(seconds), header_(std::move(header)) {}
+Checkpoints::Checkpoints(std::string file, double seconds, FilmHeader header, bool copies)
+    : file_(std::move(file)), seconds_(seconds), header_(std::move(header)), copies_(copies) {}
 
 bool Checkpoints::due() const { return !file_.empty() && seconds_since(last_) >= seconds_; }
 
@@ -34,11 +34,17 @@ void Checkpoints::save(Session& session) {
     last_ = Clock::now();
     if (header_.state.samples.empty() || header_.state.samples == kept_) return;
     kept_ = header_.state.samples;
-    // Waiting for a disk takes longer than copying what there is.
-    writing_ = std::async(std::launch::async,
-                          [file = file_, bytes = film_bytes(header_, *session.film())] {
-                              write_text_file(file, bytes, Existing::replace);
-                          });
+    if (copies_) { // waiting for a disk takes longer than copying what there is
+        writing_ = std::async(std::launch::async,
+                              [file = file_, bytes = film_bytes(header_, *session.film())] {
+                                  write_text_file(file, bytes, Existing::replace);
+                              });
+        return;
+    }
+    writing_ = std::async(std::launch::deferred, [this, film = session.film()] {
+        write_film(file_, header_, *film, Existing::replace);
+    });
+    finish();
 }
 
 } // namespace parhelion

@@ -12,8 +12,9 @@ namespace parhelion {
 
 class Checkpoints {
 public:
-    /// `header`: of the session but for its state. No file: nothing is kept.
-    Checkpoints(std::string file, double seconds, FilmHeader header);
+    /// `header`: of the session but for its state. No file: nothing is kept. `copies`: whether
+    /// there is memory for a copy of the film, so that rendering goes on while it is written.
+    Checkpoints(std::string file, double seconds, FilmHeader header, bool copies);
 
     /// Whether it is time for the next.
     bool due() const;
@@ -28,6 +29,7 @@ private:
     std::string file_;
     double seconds_;
     FilmHeader header_;
+    bool copies_;
     SampleSet kept_; ///< as far as is known
     Clock::time_point last_ = Clock::now();
     std::future<void> writing_;

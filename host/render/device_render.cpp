@@ -5,7 +5,7 @@
 #include "host/error.h"
 #include "host/flatten/scene_features.h"
 #include "host/render/device_engine.h"
-#include "host/render/film_room.h"
+#include "host/render/memory_plan.h"
 #include "host/render/session.h"
 #include "host/waves/device_waves.h"
 
@@ -94,15 +94,16 @@ OpenedRender open_on_device(const Scene& scene, RenderDevice& device, const Rend
     WorkSplit split = options.split;
     split.streams = options.checked ? 1 : stream_count(split, device.device);
     const int samples = scene.sampler.samples_per_pixel;
-    const FilmRoom room{device.device.memory_bytes / 2, device.device.max_allocation_bytes};
-    const WorkSizes sizes =
-        work_sizes(film_in_room(scene, aovs, room, split), samples, report.lanes, split);
+    const MemoryNeed need{scene, aovs,           device.device,       report.lanes,
+                          split, options.memory, options.group_memory};
+    check_memory(need);
 
     DeviceScene flat = flattened(scene, options.light_choice, progress, report,
                                  device.scene ? &*device.scene : nullptr);
     device.scene.reset();
     const FilmContent content = film_content(scene, aovs, flat.frame);
     DeviceWaves waves = compiled(device, flat, options, progress, report);
+    const WorkSizes sizes = sizes_in_memory(need, flat.bytes(), progress);
     const auto start = Clock::now();
     auto engine = std::make_unique<DeviceEngine>(device, std::move(flat), std::move(waves), sizes);
     engine->allocate(scene, aovs, options.checked, options.scratch);

@@ -21,9 +21,11 @@ struct RenderOptions {
     int lanes = 0;         ///< 0: what suits the device
     bool portable = false; ///< kernels without x86 intrinsics
     LightChoice light_choice = LightChoice::importance;
-    bool checked = false; ///< kernels look after the bounds of buffers: slowly, with one stream
-    std::string scratch = "."; ///< folder for a film that is more than fits into memory
-    bool all_features = false; ///< kernels that can do everything, whatever the scene needs
+    bool checked = false;     ///< kernels look after the bounds of buffers: slowly, with one stream
+    std::uint64_t memory = 0; ///< bytes that host and device may have each; 0: no limit
+    std::uint64_t group_memory = 0; ///< bytes that the process's control group allows; 0: no limit
+    std::string scratch = ".";      ///< folder for a film that is more than fits into memory
+    bool all_features = false;      ///< kernels that can do everything, whatever the scene needs
 };
 
 /// What the kernels of an image have.

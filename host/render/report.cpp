@@ -2,7 +2,6 @@
 #include "host/render/report.h"
 
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,12 +132,6 @@ nlohmann::json to_json(const RenderReport& r) {
             {"features", r.features},
             {"skipped_features", r.skipped_features},
             {"feature_reasons", r.feature_reasons}};
-}
-
-std::uint64_t peak_host_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 } // namespace parhelion

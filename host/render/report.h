@@ -64,7 +64,4 @@ nlohmann::json json_number(double value);
 /// axis (scene's units) and the unit of radiance.
 nlohmann::json to_json(const SceneFrame& frame);
 
-/// The most memory this process has had, bytes.
-std::uint64_t peak_host_bytes();
-
 } // namespace parhelion

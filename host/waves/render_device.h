@@ -32,6 +32,7 @@ struct RenderDevice {
     ProgramCache cache = ProgramCache::standard().with_spare(spare_cache_folder(work_folder({})));
     std::map<std::string, Program> programs; ///< by key
     CompileBeside compile_beside;            ///< may be empty: all is compiled in this process
+    bool saves_memory = false;               ///< compiles in processes of their own alone
     bool keeps_scenes = false;               ///< whether a render leaves texels to the next one
     std::optional<DeviceScene> scene{};      ///< those of the render before, and nothing else
 };

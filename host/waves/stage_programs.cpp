@@ -125,15 +125,23 @@ Compiled compile(const RenderDevice& d, const Wanted& w, const StageOptions& opt
     return {*program, program->from_cache(), seconds_since(start), {program->note(), note}};
 }
 
+bool is_unknown(const Wanted& w) { return !w.opened && !w.kept; }
+
+/// Starts a process that compiles a program for this one, where that can be.
+std::optional<ChildProcess> start_for(const RenderDevice& d, const Wanted& w,
+                                      const StageOptions& options) {
+    if (!d.compile_beside || options.checked || !d.device.keeps_programs || !is_unknown(w))
+        return std::nullopt;
+    return d.compile_beside(w.group, options, d.cache.open_folder());
+}
+
 /// Compiles the last program in another process, where another is to be compiled here: PoCL
 /// compiles one program at a time in a process.
 std::optional<ChildProcess> start_beside(const RenderDevice& d, const std::vector<Wanted>& programs,
                                          const StageOptions& options) {
-    auto unknown = [](const Wanted& w) { return !w.opened && !w.kept; };
-    if (!d.compile_beside || options.checked || !d.device.keeps_programs ||
-        !unknown(programs.back()) || std::count_if(programs.begin(), programs.end(), unknown) < 2)
+    if (d.saves_memory || std::count_if(programs.begin(), programs.end(), is_unknown) < 2)
         return std::nullopt;
-    return d.compile_beside(programs.back().group, options, d.cache.open_folder());
+    return start_for(d, programs.back(), options);
 }
 
 /// Where the driver can do more than one thing at a time, all at once. PoCL cannot: it compiles one
@@ -176,8 +184,14 @@ StagePrograms compile_stages(RenderDevice& d, const StageOptions& options) {
     jobs.reserve(programs.size());
     for (const Wanted& w : programs)
         jobs.push_back(std::async(policy(d.device), [&] {
-            if (beside && &w == &programs.back())
-                result.beside_peak_bytes = finished(*beside, w, start, result.notes).peak_bytes;
+            const bool is_beside = beside && &w == &programs.back();
+            // A compiler's memory stays with the process that it was in.
+            std::optional<ChildProcess> own;
+            if (d.saves_memory) own = start_for(d, w, options);
+            if (ChildProcess* process = is_beside ? &*beside : own ? &*own : nullptr) {
+                const auto end = finished(*process, w, start, result.notes);
+                result.beside_peak_bytes = std::max(result.beside_peak_bytes, end.peak_bytes);
+            }
             return compile(d, w, options);
         }));
     std::vector<Compiled> compiled;

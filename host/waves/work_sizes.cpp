@@ -64,4 +64,12 @@ BufferCounts buffer_counts(const WorkSizes& s) {
             .film = s.film.words()};
 }
 
+std::size_t pool_bytes(const WorkSizes& sizes) {
+    BufferCounts counts = buffer_counts(sizes);
+    counts.bad_samples = 0;
+#define ADD_BYTES(type, name) +counts.name * sizeof(type)
+    return static_cast<std::size_t>(sizes.streams) * (0 WAVE_BUFFERS(ADD_BYTES));
+#undef ADD_BYTES
+}
+
 } // namespace parhelion

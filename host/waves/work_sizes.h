@@ -52,4 +52,7 @@ struct BufferCounts {
 
 BufferCounts buffer_counts(const WorkSizes& sizes);
 
+/// What all streams take beside the film, whatever its resolution, bytes.
+std::size_t pool_bytes(const WorkSizes& sizes);
+
 } // namespace parhelion

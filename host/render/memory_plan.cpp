@@ -1,0 +1,124 @@
+// How a render keeps to the memory that it may take.
+#include "host/render/memory_plan.h"
+
+#include "host/error.h"
+#include "host/flatten/flattened_size.h"
+#include "host/memory_use.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace parhelion {
+namespace {
+
+constexpr double megabyte = 1 << 20;
+
+/// What is taken for a while beside pool and film: kernels that are loaded, a band of the picture
+/// while it is written (ImageRows::band_rows), what threads have by themselves.
+constexpr std::uint64_t passing_bytes = 80 << 20;
+
+constexpr int smallest_pool = 1 << 12; ///< paths
+
+/// Of a stream, for as many of a picture's samples as there are.
+WorkSizes sizes_of(const MemoryNeed& need, const FilmLayout& film, int pool_paths) {
+    WorkSplit split = need.split;
+    split.pool_paths = pool_paths;
+    return work_sizes(film, need.scene.sampler.samples_per_pixel, need.lanes, split);
+}
+
+/// As many paths as asked for, halved until they take no more than a third of the room.
+int paths_in(const MemoryNeed& need, const FilmLayout& film, std::uint64_t room) {
+    int paths = need.split.pool_paths;
+    while (paths > smallest_pool && pool_bytes(sizes_of(need, film, paths)) > room / 3)
+        paths = std::max(smallest_pool, paths / 2);
+    return paths;
+}
+
+FilmLayout row_of_blocks(const FilmLayout& film) { return in_bands(film, 1); }
+
+[[noreturn]] void refuse_row(const MemoryNeed& need, const FilmLayout& film, std::uint64_t room) {
+    throw InputError(fmt::format(
+        "{}: {} rows of a film of {} pixels a row and {} channels take {:.0f} MB; there is room "
+        "for {:.0f} MB (accepted: a smaller --size, or a part of it, --crop{})",
+        need.scene.file, BLOCK_SIDE, need.scene.film.crop_width, film.channels(),
+        static_cast<double>(row_of_blocks(film).bytes()) / megabyte,
+        static_cast<double>(room) / megabyte, need.limit > 0 ? ", or a larger --memory" : ""));
+}
+
+/// For pool and film, where both are as large as `scene_bytes` and what is in memory allow.
+std::uint64_t room_beside(const MemoryNeed& need, std::uint64_t scene_bytes) {
+    // On a device whose memory is not the host's, the host still looks at a band at a time.
+    const std::uint64_t host = resident_host_bytes() + passing_bytes;
+    const std::uint64_t device = need.device.is_cpu ? 0 : scene_bytes;
+    const std::uint64_t used = std::max(host, device);
+    return need.limit > used ? need.limit - used : 0;
+}
+
+WorkSizes planned_in(const MemoryNeed& need, std::uint64_t room) {
+    const FilmLayout film = film_layout(need.scene, need.aovs);
+    MemoryNeed planned = need;
+    if (need.limit > 0) planned.split.pool_paths = paths_in(need, film, room);
+    const std::uint64_t pool = pool_bytes(sizes_of(planned, film, planned.split.pool_paths)),
+                        for_film = room > pool ? room - pool : 0,
+                        at_once = std::min(for_film, need.device.max_allocation_bytes);
+    planned.split.bands_in_turn |= film.bytes() > for_film;
+    const std::size_t asked = planned.split.film_bytes;
+    const FilmLayout in_room = in_bands(film, asked > 0 ? asked : at_once);
+    if (in_room.bytes() > at_once) refuse_row(need, film, at_once);
+    return sizes_of(planned, in_room, planned.split.pool_paths);
+}
+
+/// Where nothing is said, half of what there is, so that the rest of the machine has some.
+std::uint64_t room_there(const MemoryNeed& need) {
+    const bool shared = need.device.is_cpu && need.of_group > 0;
+    return (shared ? std::min(need.device.memory_bytes, need.of_group) : need.device.memory_bytes) /
+           2;
+}
+
+void note(Progress& progress, const MemoryNeed& need, const WorkSizes& sizes) {
+    const std::size_t pool = pool_bytes(sizes),
+                      asked = pool_bytes(sizes_of(need, sizes.film, need.split.pool_paths));
+    if (pool < asked)
+        progress.note(fmt::format("note: the pool of paths has {:.0f} MB in the place of {:.0f}",
+                                  static_cast<double>(pool) / megabyte,
+                                  static_cast<double>(asked) / megabyte));
+    if (sizes.bands_at_once == sizes.film.bands()) return;
+    const std::uint64_t bytes = std::uint64_t{sizes.film.bytes()} * sizes.film.bands();
+    progress.note(fmt::format("note: the film would take {:.0f} MB: {:.0f} MB of it at a time are "
+                              "in memory, the rest is on the disk",
+                              static_cast<double>(bytes) / megabyte,
+                              static_cast<double>(sizes.film.bytes()) / megabyte));
+}
+
+} // namespace
+
+void check_memory(const MemoryNeed& need) {
+    if (need.limit == 0) {
+        planned_in(need, room_there(need));
+        return;
+    }
+    const FilmLayout film = film_layout(need.scene, need.aovs);
+    const int paths = std::min(smallest_pool, need.split.pool_paths);
+    const std::uint64_t now = resident_host_bytes(), records = most_flattened_bytes(need.scene),
+                        pool = pool_bytes(sizes_of(need, film, paths)),
+                        row = std::min(film.bytes(), row_of_blocks(film).bytes());
+    const std::uint64_t least = now + records + passing_bytes + pool + row;
+    if (least <= need.limit) return;
+    auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / megabyte; };
+    throw InputError(fmt::format(
+        "{}: needs about {:.0f} MB of memory: {:.0f} for program and scene, {:.0f} for records and "
+        "tree of the scene, {:.0f} for a small pool and a few rows of the film, {:.0f} for the "
+        "picture and the like (accepted: --memory {:.0f}M or more)",
+        need.scene.file, megabytes(least), megabytes(now), megabytes(records),
+        megabytes(pool + row), megabytes(passing_bytes), megabytes(least) + 1));
+}
+
+WorkSizes sizes_in_memory(const MemoryNeed& need, std::uint64_t scene_bytes, Progress& progress) {
+    const std::uint64_t room = need.limit > 0 ? room_beside(need, scene_bytes) : room_there(need);
+    const WorkSizes sizes = planned_in(need, room);
+    note(progress, need, sizes);
+    return sizes;
+}
+
+} // namespace parhelion

@@ -1,0 +1,33 @@
+// How a render keeps to the memory that it may take: how large its pool is, and whether its film is
+// in memory as a whole or a band at a time.
+#pragma once
+
+#include "host/cl/device.h"
+#include "host/progress.h"
+#include "host/waves/work_sizes.h"
+
+#include <cstdint>
+
+namespace parhelion {
+
+/// A render, as far as its memory depends on it.
+struct MemoryNeed {
+    const Scene& scene;
+    const AovPlan& aovs;
+    const Device& device;
+    int lanes = 1;
+    WorkSplit split;            ///< with its streams chosen
+    std::uint64_t limit = 0;    ///< bytes that host and device may have each; 0: none
+    std::uint64_t of_group = 0; ///< bytes that the process's control group allows; 0: no limit
+};
+
+/// Before the scene is made into records. Throws InputError, saying what it needs, where that is
+/// more than the limit, or a few rows of the film are more than there is.
+void check_memory(const MemoryNeed& need);
+
+/// Once the scene, whose records are so many bytes, and the kernels are there: a pool that is
+/// halved until it has room, and a film of which one band at a time is in memory where it is more
+/// than fits. Both are noted. Throws InputError where not even a row of blocks has room.
+WorkSizes sizes_in_memory(const MemoryNeed& need, std::uint64_t scene_bytes, Progress& progress);
+
+} // namespace parhelion
