@@ -3,14 +3,18 @@
 
 #include "host/waves/kernel_arguments.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace parhelion {
 
 WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs,
                        const WorkSizes& s)
     : queue_(device.context, device.device.handle, CL_QUEUE_PROFILING_ENABLE),
-      no_film_(device.context, "film", 0), band_blocks_(s.film.band_blocks),
-      outside_(device.context, "outside", 1), result_stride_(s.result_stride()),
-      checked_(programs.checked), work_group_size_(s.work_group_size) {
+      no_film_(device.context, "film", 0), band_blocks_(s.film.band_blocks), segments_(s.segments),
+      block_capacity_(s.block_capacity()), outside_(device.context, "outside", 1),
+      result_stride_(s.result_stride()), checked_(programs.checked),
+      work_group_size_(s.work_group_size), end_(queue_) {
     for (std::size_t stage = 0; stage < stage_count; stage++)
         kernels_.push_back(programs.programs[stage].kernel(stage_names[stage]));
     work_ = wave_buffers(device.context, queue_, buffer_counts(s));
@@ -45,6 +49,17 @@ void WaveStream::begin_wave(const Wave& wave) {
         film_argument, films_[static_cast<std::size_t>(wave.band)]);
 }
 
+void WaveStream::try_out() {
+    for (cl::Kernel& kernel : kernels_)
+        kernel.setArg(wave_argument, WaveParams{});
+    for (std::size_t i = 0; i < stage_count; i++) {
+        const auto stage = static_cast<Stage>(i);
+        launch(stage, 0, stage == Stage::accumulate ? block_capacity_ : segments_);
+    }
+    end_wave();
+    times_ = {};
+}
+
 void WaveStream::launch(Stage stage, int depth, int work_items) {
     auto i = static_cast<std::size_t>(stage);
     kernels_[i].setArg(depth_argument, depth);
@@ -58,6 +73,7 @@ void WaveStream::launch(Stage stage, int depth, int work_items) {
 
 std::span<const int> WaveStream::read_counts() {
     work_.counts.read(queue_, counts_.data());
+    look_at_launches(); // counts mean nothing where the device is lost: a path would never end
     return counts_;
 }
 
@@ -86,15 +102,26 @@ const char* WaveStream::read_outside() {
     return buffer_left(number);
 }
 
-void WaveStream::end_wave() {
-    queue_.finish();
+void WaveStream::look_at_launches() {
     for (const auto& [stage, event] : pending_) {
+        // Of a kernel that has failed not every driver tells when it is waited for.
+        if (const cl_int status = event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(); status < 0)
+            throw cl::Error(status, stage_names[stage]);
         cl_ulong begin = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
         cl_ulong end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-        times_[stage].kernel_seconds += 1e-9 * static_cast<double>(end - begin);
+        const double seconds = 1e-9 * static_cast<double>(end - begin);
+        times_[stage].kernel_seconds += seconds;
+        times_[stage].longest_seconds = std::max(times_[stage].longest_seconds, seconds);
         times_[stage].launches++;
+        longest_ = std::max(longest_, seconds);
     }
     pending_.clear();
+}
+
+double WaveStream::end_wave() {
+    queue_.finish();
+    look_at_launches();
+    return std::exchange(longest_, 0);
 }
 
 } // namespace parhelion
