@@ -1,6 +1,7 @@
 // A session of `parhelion render`, to its end or until something stops it, and what it leaves.
 #include "host/commands/render_session.h"
 
+#include "host/cl/device.h"
 #include "host/commands/bad_sample_warning.h"
 #include "host/commands/duration.h"
 #include "host/commands/render_outputs.h"
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <limits>
 
 namespace parhelion {
@@ -34,6 +36,21 @@ std::string run(const RenderCommand& command, Clock::time_point started, Session
             checkpoints.save(session);
     }
     return session.finished() ? "" : reason;
+}
+
+/// Of a device that is gone, with what was on its film.
+DeviceError failed_device(const RenderCommand& command, Checkpoints& checkpoints,
+                          const cl::Error& error) {
+    checkpoints.finish();
+    std::error_code ignored;
+    const bool kept = checkpoints.any() ||
+                      (command.goes_on && std::filesystem::exists(command.checkpoint, ignored));
+    const std::string file = kept ? command.checkpoint : command.resume;
+    return DeviceError(fmt::format(
+        "the device failed while rendering: {} in {}; {}", opencl_error_name(error.err()),
+        error.what(),
+        file.empty() ? "there is no checkpoint to go on from (--checkpoint)"
+                     : fmt::format("--resume {} goes on from what was kept before", file)));
 }
 
 std::string stopped_text(const RenderCommand& command, const FilmHeader& header,
@@ -70,13 +87,8 @@ bool write_outputs(const RenderCommand& command, const FilmHeader& header, Sessi
     return good;
 }
 
-} // namespace
-
-ExitCode render_session(const RenderCommand& command, Clock::time_point started, Session& session,
-                        FilmHeader header, Existing existing) {
-    note_signals();
-    Checkpoints checkpoints(command.checkpoint,
-                            parse_duration("--checkpoint-every", command.checkpoint_every), header);
+ExitCode finish_session(const RenderCommand& command, Clock::time_point started, Session& session,
+                        Checkpoints& checkpoints, FilmHeader header, Existing existing) {
     const std::string reason = run(command, started, session, checkpoints);
     const bool kept = checkpoints.finish();
     header.state = session.state();
@@ -87,6 +99,20 @@ ExitCode render_session(const RenderCommand& command, Clock::time_point started,
     }
     if (!kept) return ExitCode::output_failure;
     return !good && command.strict ? ExitCode::different : ExitCode::ok;
+}
+
+} // namespace
+
+ExitCode render_session(const RenderCommand& command, Clock::time_point started, Session& session,
+                        FilmHeader header, Existing existing) {
+    note_signals();
+    Checkpoints checkpoints(command.checkpoint,
+                            parse_duration("--checkpoint-every", command.checkpoint_every), header);
+    try {
+        return finish_session(command, started, session, checkpoints, header, existing);
+    } catch (const cl::Error& error) {
+        throw failed_device(command, checkpoints, error);
+    }
 }
 
 } // namespace parhelion

@@ -33,12 +33,12 @@ void Checkpoints::save(Session& session) {
     header_.state = session.state();
     last_ = Clock::now();
     if (header_.state.samples.empty() || header_.state.samples == kept_) return;
+    std::string bytes = film_bytes(header_, *session.film());
     kept_ = header_.state.samples;
     // Waiting for a disk takes longer than copying what there is.
-    writing_ = std::async(std::launch::async,
-                          [file = file_, bytes = film_bytes(header_, *session.film())] {
-                              write_text_file(file, bytes, Existing::replace);
-                          });
+    writing_ = std::async(std::launch::async, [file = file_, bytes = std::move(bytes)] {
+        write_text_file(file, bytes, Existing::replace);
+    });
 }
 
 } // namespace parhelion

@@ -23,6 +23,8 @@ public:
     void save(Session& session);
     /// Waits for the last one; whether it is there, if any was asked for.
     bool finish();
+    /// Whether there is one of this render, once finish() has said so.
+    bool any() const { return !kept_.empty(); }
 
 private:
     std::string file_;

@@ -73,6 +73,14 @@ DeviceWaves compiled(RenderDevice& device, const DeviceScene& flat, const Render
     return waves;
 }
 
+void note_smaller_pool(const WorkSizes& wanted, const WorkSizes& found, Progress& progress) {
+    if (found.path_capacity == wanted.path_capacity) return;
+    progress.note(fmt::format("note: the device has no room for {} paths in flight: there are {} "
+                              "(--pool-paths); the image is the same",
+                              wanted.streams * wanted.path_capacity,
+                              found.streams * found.path_capacity));
+}
+
 /// The film of a device's buffers.
 class DeviceFilm : public FilmSums {
 public:
@@ -100,8 +108,8 @@ private:
 
 class DeviceEngine : public Engine {
 public:
-    DeviceEngine(RenderDevice& device, DeviceScene scene, DeviceWaves waves, const WorkSizes& sizes)
-        : device_(device), scene_(std::move(scene)), waves_(std::move(waves)), sizes_(sizes) {}
+    DeviceEngine(RenderDevice& device, DeviceScene scene, DeviceWaves waves)
+        : device_(device), scene_(std::move(scene)), waves_(std::move(waves)) {}
     DeviceEngine(const DeviceEngine&) = delete;
     DeviceEngine& operator=(const DeviceEngine&) = delete;
     ~DeviceEngine() override {
@@ -111,16 +119,20 @@ public:
         device_.scene->images = std::move(scene_.images);
     }
 
-    /// Film and streams.
-    void allocate(const Scene& scene, const AovPlan& aovs, bool checked) {
-        const RenderParams params = render_params(scene, scene_, sizes_, aovs);
+    /// Film and streams, of the first of the sizes that there is room for, which is returned.
+    WorkSizes allocate(const Scene& scene, const AovPlan& aovs, bool checked,
+                       std::span<const WorkSizes> sizes) {
+        const auto params = [&](const WorkSizes& s) {
+            return render_params(scene, scene_, s, aovs);
+        };
         waves_.upload(scene_);
-        waves_.allocate(sizes_, params);
-        loop_ = wave_loop(sizes_, params, scene_.features.on());
+        sizes_ = waves_.allocate(sizes, params);
+        loop_ = wave_loop(sizes_, params(sizes_), scene_.features.on());
         crop_ = scene.film;
         if (sizes_.film.shape_ids)
             coverage_.emplace(sizes_.film.window, crop_, scene_.filter_values);
         checked_ = checked;
+        return sizes_;
     }
 
     void trace(WaveSchedule& schedule, const std::function<void()>& on_wave) override {
@@ -226,7 +238,7 @@ OpenedRender open_on_device(const Scene& scene, RenderDevice& device, const Rend
                  split.film_bytes > 0 ? split.film_bytes : film_bytes_at_once(device.device));
     check_film_memory(scene, layout, device.device);
     const int samples = scene.sampler.samples_per_pixel;
-    const WorkSizes sizes = work_sizes(layout, samples, report.lanes, split);
+    const std::vector<WorkSizes> sizes = pool_choices(layout, samples, report.lanes, split);
 
     DeviceScene flat = flattened(scene, options.light_choice, progress, report,
                                  device.scene ? &*device.scene : nullptr);
@@ -234,8 +246,9 @@ OpenedRender open_on_device(const Scene& scene, RenderDevice& device, const Rend
     const FilmContent content = film_content(scene, aovs, flat.frame);
     DeviceWaves waves = compiled(device, flat, options, progress, report);
     const auto start = Clock::now();
-    auto engine = std::make_unique<DeviceEngine>(device, std::move(flat), std::move(waves), sizes);
-    engine->allocate(scene, aovs, options.checked);
+    auto engine = std::make_unique<DeviceEngine>(device, std::move(flat), std::move(waves));
+    const WorkSizes found = engine->allocate(scene, aovs, options.checked, sizes);
+    note_smaller_pool(sizes.front(), found, progress);
     report.upload_seconds = seconds_since(start);
     return {std::move(engine), content, layout.blocks(), samples, std::move(report)};
 }

@@ -49,6 +49,16 @@ WorkSizes work_sizes(const FilmLayout& film, int samples, int lanes, const WorkS
     return s;
 }
 
+std::vector<WorkSizes> pool_choices(const FilmLayout& film, int samples, int lanes,
+                                    WorkSplit split) {
+    std::vector<WorkSizes> choices{work_sizes(film, samples, lanes, split)};
+    for (; split.pool_paths > 1; split.pool_paths /= 2) {
+        const WorkSizes s = work_sizes(film, samples, lanes, split);
+        if (s.path_capacity < choices.back().path_capacity) choices.push_back(s);
+    }
+    return choices;
+}
+
 BufferCounts buffer_counts(const WorkSizes& s) {
     auto segments = static_cast<std::size_t>(s.segments);
     auto blocks = static_cast<std::size_t>(s.block_capacity());

@@ -5,6 +5,7 @@
 #include "host/waves/wave_schedule.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace parhelion {
 
@@ -39,6 +40,11 @@ struct WorkSizes {
 
 /// `split.streams` must be chosen. Throws InputError for more paths than a device counts.
 WorkSizes work_sizes(const FilmLayout& film, int samples, int lanes, const WorkSplit& split);
+
+/// Those of the pool that is asked for, then of the half of it and so on, down to one group of
+/// samples of a block a stream: what a device has room for is one of them. At least one.
+std::vector<WorkSizes> pool_choices(const FilmLayout& film, int samples, int lanes,
+                                    WorkSplit split);
 
 #define BUFFER_COUNT(type, name) std::size_t name;
 /// Elements of the work buffers: those of one stream, and a band of the film, which all streams
