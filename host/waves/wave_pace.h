@@ -11,8 +11,9 @@ inline constexpr double longest_launch = 0.1;
 int first_wave_limit(int most);
 
 /// The limit after a wave of `wave` blocks times samples whose longest launch took so many seconds
-/// (0: not known): less, where that is near `longest_launch`; more, twice the wave at most, where
-/// that would take half of it. 1 to `most`; waves that end at a time may tell one after the other.
+/// (0: not known): less, where that is near `longest_launch` or above; more, four times the wave at
+/// most, where it leaves room. 1 to `most`; of waves under way at once each is told of when it
+/// ends.
 int next_wave_limit(int limit, int most, int wave, double seconds);
 
 } // namespace parhelion

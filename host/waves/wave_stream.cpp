@@ -11,10 +11,8 @@ namespace parhelion {
 WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs,
                        const WorkSizes& s)
     : queue_(device.context, device.device.handle, CL_QUEUE_PROFILING_ENABLE),
-      no_film_(device.context, "film", 0), band_blocks_(s.film.band_blocks), segments_(s.segments),
-      block_capacity_(s.block_capacity()), outside_(device.context, "outside", 1),
-      result_stride_(s.result_stride()), checked_(programs.checked),
-      work_group_size_(s.work_group_size), end_(queue_) {
+      no_film_(device.context, "film", 0), sizes_(s), outside_(device.context, "outside", 1),
+      checked_(programs.checked), end_(queue_) {
     for (std::size_t stage = 0; stage < stage_count; stage++)
         kernels_.push_back(programs.programs[stage].kernel(stage_names[stage]));
     work_ = wave_buffers(device.context, queue_, buffer_counts(s));
@@ -25,6 +23,7 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
 
 void WaveStream::bind(const SceneBuffers& scene, const std::vector<Buffer<cl_uint>>& films,
                       const RenderParams& params) {
+    params_ = params;
     films_.clear();
     films_.reserve(films.size());
     for (const Buffer<cl_uint>& film : films)
@@ -42,11 +41,14 @@ void WaveStream::begin_wave(const Wave& wave) {
     blocks_ = wave_blocks(wave);
     queue_.enqueueWriteBuffer(work_.wave_blocks.handle(), CL_FALSE, 0,
                               blocks_.size() * sizeof(WaveBlock), blocks_.data());
-    const WaveParams params = wave_params(wave, band_blocks_);
+    const WaveParams params = wave_params(wave, sizes_.film.band_blocks);
     for (cl::Kernel& kernel : kernels_)
         kernel.setArg(wave_argument, params);
     kernels_[static_cast<std::size_t>(Stage::accumulate)].setArg(
         film_argument, films_[static_cast<std::size_t>(wave.band)]);
+    params_.segment_size =
+        sizes_.used_segment_size(BLOCK_PIXELS * params.block_count * params.sample_count);
+    kernels_[static_cast<std::size_t>(Stage::generate)].setArg(params_argument, params_);
 }
 
 void WaveStream::try_out() {
@@ -54,7 +56,7 @@ void WaveStream::try_out() {
         kernel.setArg(wave_argument, WaveParams{});
     for (std::size_t i = 0; i < stage_count; i++) {
         const auto stage = static_cast<Stage>(i);
-        launch(stage, 0, stage == Stage::accumulate ? block_capacity_ : segments_);
+        launch(stage, 0, stage == Stage::accumulate ? sizes_.block_capacity() : sizes_.segments);
     }
     end_wave();
     times_ = {};
@@ -63,11 +65,11 @@ void WaveStream::try_out() {
 void WaveStream::launch(Stage stage, int depth, int work_items) {
     auto i = static_cast<std::size_t>(stage);
     kernels_[i].setArg(depth_argument, depth);
-    int groups = (work_items + work_group_size_ - 1) / work_group_size_;
-    std::size_t global = static_cast<std::size_t>(groups) * work_group_size_;
+    const int group = sizes_.work_group_size, groups = (work_items + group - 1) / group;
+    std::size_t global = static_cast<std::size_t>(groups) * group;
     cl::Event event;
-    queue_.enqueueNDRangeKernel(kernels_[i], cl::NullRange, cl::NDRange(global),
-                                cl::NDRange(work_group_size_), nullptr, &event);
+    queue_.enqueueNDRangeKernel(kernels_[i], cl::NullRange, cl::NDRange(global), cl::NDRange(group),
+                                nullptr, &event);
     pending_.emplace_back(i, event);
 }
 
@@ -79,7 +81,7 @@ std::span<const int> WaveStream::read_counts() {
 
 std::vector<float> WaveStream::read_results(int channel, std::size_t slots) {
     std::vector<float> values(slots);
-    work_.results.read(queue_, static_cast<std::size_t>(channel) * result_stride_, slots,
+    work_.results.read(queue_, static_cast<std::size_t>(channel) * sizes_.result_stride(), slots,
                        values.data());
     return values;
 }

@@ -63,12 +63,11 @@ private:
     /// other.
     Buffer<cl_uint> no_film_;
     std::vector<cl::Buffer> films_;
-    int band_blocks_, segments_, block_capacity_;
+    WorkSizes sizes_;
+    RenderParams params_{};
     std::vector<WaveBlock> blocks_; ///< of the wave
     Buffer<cl_uint> outside_;       ///< of checked kernels
-    std::size_t result_stride_;
     bool checked_;
-    int work_group_size_;
     std::vector<std::pair<std::size_t, cl::Event>> pending_;
     std::array<StageTime, stage_count> times_{};
     double longest_ = 0; ///< of the wave's launches

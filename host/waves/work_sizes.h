@@ -23,6 +23,7 @@ struct WorkSizes {
     int streams = 1;
     int samples_per_wave = 1, blocks_per_wave = 1, path_capacity = 16;
     int segments = 1, segment_size = 16, segment_stride = 32;
+    int segment_unit = 1; ///< that sizes of segments are multiples of: what is handled at once
     int work_group_size = 1;
     FilmLayout film;
 
@@ -33,6 +34,9 @@ struct WorkSizes {
     }
     /// Of a wave, of one sample each.
     int block_capacity() const { return path_capacity / BLOCK_PIXELS; }
+    /// Of the segments' size what a wave of `paths` uses: each segment has as many of them, so that
+    /// fewer paths take less time also where a work-item of each is under way at once.
+    int used_segment_size(int paths) const;
     WaveLimits wave_limits() const {
         return {samples_per_wave, film.band_blocks, block_capacity()};
     }

@@ -55,18 +55,19 @@ double longest(const Paced& render, std::size_t from) {
 
 } // namespace
 
-TEST_CASE("Wave pace: a launch of twice the paths takes twice as long at most") {
-    // What the bounds say of a wave that was as large as it might be.
-    CHECK(next_wave_limit(256, most, 256, 0.001) == 512);    // twice at most
-    CHECK(next_wave_limit(256, most, 256, 0.04) == 320);     // 0.05 s
-    CHECK(next_wave_limit(256, most, 256, 0.06) == 256);     // near enough
-    CHECK(next_wave_limit(256, most, 256, 0.1) == 128);      // 0.05 s again
+TEST_CASE("Wave pace: the time of a launch grows with its paths at most") {
+    // Waves that were as large as they might be.
+    CHECK(next_wave_limit(256, most, 256, 0.001) == 1024);   // four times at most
+    CHECK(next_wave_limit(256, most, 256, 0.04) == 384);     // 0.06 s
+    CHECK(next_wave_limit(256, most, 256, 0.07) == 256);     // near enough
+    CHECK(next_wave_limit(256, most, 256, 0.12) == 128);     // 0.06 s again
     CHECK(next_wave_limit(256, most, 256, 100.0) == 1);      // never nothing
     CHECK(next_wave_limit(3000, most, 3000, 0.001) == most); // never more than the pool
-    CHECK(next_wave_limit(256, most, 256, 0.0) == 512);      // a device without a clock
-    CHECK(next_wave_limit(1024, most, 16, 0.001) == 1024);   // a small wave tells of no large ones
-    CHECK(next_wave_limit(1024, most, 16, 0.07001) == 11);   // but of their time
-    CHECK(next_wave_limit(128, most, 256, 0.001) == 512);    // of two at a time
+    CHECK(next_wave_limit(256, most, 256, 0.0) == 1024);     // a device without a clock
+    // Others: a small wave tells nothing of large ones that are fast, but of slow ones.
+    CHECK(next_wave_limit(1024, most, 16, 0.001) == 1024);
+    CHECK(next_wave_limit(1024, most, 16, 0.08001) == 11);
+    CHECK(next_wave_limit(128, most, 256, 0.001) == 1024);
     CHECK(next_wave_limit(128, most, 1024, 0.2) == 128);
     CHECK(first_wave_limit(most) == 256);
     CHECK(first_wave_limit(16) == 16);
@@ -78,7 +79,7 @@ TEST_CASE("Wave pace: on a fast device all waves but the first fill the pool") {
         const Paced render = paced(
             todo, {16, 10000, most}, [](const Wave& w) { return seconds_of(w, 1e-7); }, streams);
         CHECK(std::count_if(render.waves.begin(), render.waves.end(),
-                            [](int wave) { return wave < most; }) <= 6 * streams);
+                            [](int wave) { return wave < most; }) <= 4 * streams);
         CHECK(render.waves.front() == 256);
     }
 }

@@ -131,3 +131,19 @@ TEST_CASE("Work sizes: a pool that there is no room for is halved down to a grou
         CHECK(choices.back().path_capacity <= FILM_SAMPLES * BLOCK_PIXELS);
     }
 }
+
+TEST_CASE("Work sizes: a wave of any size is spread over all segments, and fits", "[waves]") {
+    for (const Case& c : cases) {
+        const WorkSizes s =
+            sizes_of(scene_of(c.width, c.height, FilterKind::box), c.samples, c.lanes, c.split);
+        CAPTURE(c.width, c.height, s.segments, s.segment_size, s.path_capacity);
+        for (int paths = 1; paths <= s.path_capacity; paths++) {
+            const int size = s.used_segment_size(paths);
+            REQUIRE(size <= s.segment_size);
+            REQUIRE(std::int64_t{size} * s.segments >= paths);
+            REQUIRE((size % (c.lanes == 1 ? 1 : 16) == 0 || size == s.segment_size));
+            // No more than a packet in each is left out.
+            REQUIRE((size - (c.lanes == 1 ? 1 : 16)) * s.segments < paths);
+        }
+    }
+}
