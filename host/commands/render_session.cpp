@@ -15,6 +15,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 namespace parhelion {
 namespace {
@@ -109,7 +110,7 @@ ExitCode render_session(const RenderCommand& command, Clock::time_point started,
     Checkpoints checkpoints(command.checkpoint,
                             parse_duration("--checkpoint-every", command.checkpoint_every), header);
     try {
-        return finish_session(command, started, session, checkpoints, header, existing);
+        return finish_session(command, started, session, checkpoints, std::move(header), existing);
     } catch (const cl::Error& error) {
         throw failed_device(command, checkpoints, error);
     }
