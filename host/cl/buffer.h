@@ -1,8 +1,8 @@
 // Device memory of one element type.
 #pragma once
 
+#include "host/cl/no_room.h"
 #include "host/cl/opencl.h"
-#include "host/error.h"
 #include "host/large_vector.h"
 #include "host/zero_pages.h"
 
@@ -35,7 +35,7 @@ class Buffer {
 public:
     Buffer() = default;
 
-    /// Memory whose contents are undefined. Throws DeviceError, naming the buffer and its size,
+    /// Memory whose contents are undefined. Throws NoRoom, naming the buffer and its size,
     /// where it does not fit.
     Buffer(const cl::Context& context, const std::string& name, std::size_t count) : count_(count) {
         try {
@@ -144,8 +144,8 @@ private:
     }
 
     [[noreturn]] void refuse(const std::string& name) const {
-        throw DeviceError(fmt::format("the device has no room for buffer {} of {:.1f} MB", name,
-                                      static_cast<double>(bytes()) / 1e6));
+        throw NoRoom(fmt::format("the device has no room for buffer {} of {:.1f} MB", name,
+                                 static_cast<double>(bytes()) / 1e6));
     }
 
     // What the handle is over, where it is the buffer's own: one of them.

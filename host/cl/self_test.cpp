@@ -3,6 +3,7 @@
 
 #include "host/cl/buffer.h"
 #include "host/cl/program.h"
+#include "host/cl/queue_end.h"
 
 #include <vector>
 
@@ -29,6 +30,7 @@ std::string self_test(const Device& device) {
         Program program(context, device, ProgramCache({}),
                         program_source({"self_test.cl"}, {device.lanes()}));
         Buffer<float> out(context, "self_test", 2 * count);
+        const QueueEnd end(queue);
         cl::Kernel kernel = program.kernel("self_test");
         kernel.setArg(0, out.handle());
         kernel.setArg(1, count);

@@ -1,6 +1,7 @@
 // A session of `parhelion render`, to its end or until something stops it, and what it leaves.
 #include "host/commands/render_session.h"
 
+#include "host/cl/device.h"
 #include "host/commands/bad_sample_warning.h"
 #include "host/commands/duration.h"
 #include "host/commands/render_outputs.h"
@@ -13,7 +14,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <limits>
+#include <utility>
 
 namespace parhelion {
 namespace {
@@ -43,6 +46,21 @@ bool has_room_for_copy(const RenderCommand& command, const FilmContent& content)
     const std::int64_t sums =
         std::int64_t{content.film.crop_width} * content.film.crop_height * content.channels();
     return !command.memory && sums <= most_sums;
+}
+
+/// Of a device that is gone, with what was on its film.
+DeviceError failed_device(const RenderCommand& command, Checkpoints& checkpoints,
+                          const cl::Error& error) {
+    checkpoints.finish();
+    std::error_code ignored;
+    const bool kept = checkpoints.any() ||
+                      (command.goes_on && std::filesystem::exists(command.checkpoint, ignored));
+    const std::string file = kept ? command.checkpoint : command.resume;
+    return DeviceError(fmt::format(
+        "the device failed while rendering: {} in {}; {}", opencl_error_name(error.err()),
+        error.what(),
+        file.empty() ? "there is no checkpoint to go on from (--checkpoint)"
+                     : fmt::format("--resume {} goes on from what was kept before", file)));
 }
 
 std::string stopped_text(const RenderCommand& command, const FilmHeader& header,
@@ -79,14 +97,8 @@ bool write_outputs(const RenderCommand& command, const FilmHeader& header, Sessi
     return good;
 }
 
-} // namespace
-
-ExitCode render_session(const RenderCommand& command, Clock::time_point started, Session& session,
-                        FilmHeader header, Existing existing) {
-    note_signals();
-    Checkpoints checkpoints(command.checkpoint,
-                            parse_duration("--checkpoint-every", command.checkpoint_every), header,
-                            has_room_for_copy(command, header.content));
+ExitCode finish_session(const RenderCommand& command, Clock::time_point started, Session& session,
+                        Checkpoints& checkpoints, FilmHeader header, Existing existing) {
     const std::string reason = run(command, started, session, checkpoints);
     const bool kept = checkpoints.finish();
     header.state = session.state();
@@ -97,6 +109,21 @@ ExitCode render_session(const RenderCommand& command, Clock::time_point started,
     }
     if (!kept) return ExitCode::output_failure;
     return !good && command.strict ? ExitCode::different : ExitCode::ok;
+}
+
+} // namespace
+
+ExitCode render_session(const RenderCommand& command, Clock::time_point started, Session& session,
+                        FilmHeader header, Existing existing) {
+    note_signals();
+    Checkpoints checkpoints(command.checkpoint,
+                            parse_duration("--checkpoint-every", command.checkpoint_every), header,
+                            has_room_for_copy(command, header.content));
+    try {
+        return finish_session(command, started, session, checkpoints, std::move(header), existing);
+    } catch (const cl::Error& error) {
+        throw failed_device(command, checkpoints, error);
+    }
 }
 
 } // namespace parhelion

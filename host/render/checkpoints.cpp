@@ -33,17 +33,20 @@ void Checkpoints::save(Session& session) {
     header_.state = session.state();
     last_ = Clock::now();
     if (header_.state.samples.empty() || header_.state.samples == kept_) return;
+    if (!copies_) return write_now(session);
+    // Waiting for a disk takes longer than copying what there is.
+    std::string bytes = film_bytes(header_, *session.film());
     kept_ = header_.state.samples;
-    if (copies_) { // waiting for a disk takes longer than copying what there is
-        writing_ = std::async(std::launch::async,
-                              [file = file_, bytes = film_bytes(header_, *session.film())] {
-                                  write_text_file(file, bytes, Existing::replace);
-                              });
-        return;
-    }
-    writing_ = std::async(std::launch::deferred, [this, film = session.film()] {
-        write_film(file_, header_, *film, Existing::replace);
+    writing_ = std::async(std::launch::async, [file = file_, bytes = std::move(bytes)] {
+        write_text_file(file, bytes, Existing::replace);
     });
+}
+
+void Checkpoints::write_now(Session& session) {
+    const auto film = session.film();
+    kept_ = header_.state.samples;
+    writing_ = std::async(std::launch::deferred,
+                          [&] { write_film(file_, header_, *film, Existing::replace); });
     finish();
 }
 

@@ -24,8 +24,12 @@ public:
     void save(Session& session);
     /// Waits for the last one; whether it is there, if any was asked for.
     bool finish();
+    /// Whether there is one of this render, once finish() has said so.
+    bool any() const { return !kept_.empty(); }
 
 private:
+    void write_now(Session& session);
+
     std::string file_;
     double seconds_;
     FilmHeader header_;

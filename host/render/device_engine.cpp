@@ -79,9 +79,8 @@ std::unique_ptr<FilmStore> make_store(const FilmLayout& layout, const Film& crop
 
 } // namespace
 
-DeviceEngine::DeviceEngine(RenderDevice& device, DeviceScene scene, DeviceWaves waves,
-                           const WorkSizes& sizes)
-    : device_(device), scene_(std::move(scene)), waves_(std::move(waves)), sizes_(sizes) {}
+DeviceEngine::DeviceEngine(RenderDevice& device, DeviceScene scene, DeviceWaves waves)
+    : device_(device), scene_(std::move(scene)), waves_(std::move(waves)) {}
 
 DeviceEngine::~DeviceEngine() {
     if (!device_.keeps_scenes) return;
@@ -90,18 +89,20 @@ DeviceEngine::~DeviceEngine() {
     device_.scene->images = std::move(scene_.images);
 }
 
-void DeviceEngine::allocate(const Scene& scene, const AovPlan& aovs, bool checked,
-                            const std::string& scratch) {
+WorkSizes DeviceEngine::allocate(const Scene& scene, const AovPlan& aovs, bool checked,
+                                 const std::string& scratch, std::span<const WorkSizes> sizes) {
     crop_ = scene.film;
-    if (sizes_.bands_at_once < sizes_.film.bands())
-        store_ = make_store(sizes_.film, crop_, scratch);
-    const RenderParams params = render_params(scene, scene_, sizes_, aovs);
+    const WorkSizes& wanted = sizes.front();
+    if (wanted.bands_at_once < wanted.film.bands())
+        store_ = make_store(wanted.film, crop_, scratch);
+    const auto params = [&](const WorkSizes& s) { return render_params(scene, scene_, s, aovs); };
     waves_.upload(scene_);
-    waves_.allocate(sizes_, params);
-    loop_ = wave_loop(sizes_, params, scene_.features.on());
+    sizes_ = waves_.allocate(sizes, params);
+    loop_ = wave_loop(sizes_, params(sizes_), scene_.features.on());
     if (sizes_.film.shape_ids)
         coverage_.emplace(sizes_.film.window, crop_, scene_.filter_values, blocks_at_once());
     checked_ = checked;
+    return sizes_;
 }
 
 void DeviceEngine::trace(WaveSchedule& schedule, const std::function<void()>& on_wave) {

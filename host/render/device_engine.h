@@ -16,16 +16,16 @@ namespace parhelion {
 class DeviceEngine : public Engine {
 public:
     /// `device` must outlive it.
-    DeviceEngine(RenderDevice& device, DeviceScene scene, DeviceWaves waves,
-                 const WorkSizes& sizes);
+    DeviceEngine(RenderDevice& device, DeviceScene scene, DeviceWaves waves);
     DeviceEngine(const DeviceEngine&) = delete;
     DeviceEngine& operator=(const DeviceEngine&) = delete;
     ~DeviceEngine() override;
 
-    /// Film and streams. `scratch`: the folder for a film that is not in memory as a whole. Throws
+    /// Film and streams, of the first of the sizes (of one film) that there is room for, which is
+    /// returned. `scratch`: the folder for a film that is not in memory as a whole. Throws
     /// OutputError where it has no room for that.
-    void allocate(const Scene& scene, const AovPlan& aovs, bool checked,
-                  const std::string& scratch);
+    WorkSizes allocate(const Scene& scene, const AovPlan& aovs, bool checked,
+                       const std::string& scratch, std::span<const WorkSizes> sizes);
 
     void trace(WaveSchedule& schedule, const std::function<void()>& on_wave) override;
     WaveLimits wave_limits() const override { return sizes_.wave_limits(); }

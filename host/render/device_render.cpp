@@ -44,6 +44,14 @@ DeviceWaves compiled(RenderDevice& device, const DeviceScene& flat, const Render
     return waves;
 }
 
+void note_smaller_pool(const WorkSizes& wanted, const WorkSizes& found, Progress& progress) {
+    if (found.path_capacity == wanted.path_capacity) return;
+    progress.note(fmt::format("note: the device has no room for {} paths in flight: there are {} "
+                              "(--pool-paths); the image is the same",
+                              wanted.streams * wanted.path_capacity,
+                              found.streams * found.path_capacity));
+}
+
 } // namespace
 
 FeatureSet render_features(const DeviceScene& scene, const RenderOptions& options) {
@@ -103,12 +111,13 @@ OpenedRender open_on_device(const Scene& scene, RenderDevice& device, const Rend
     device.scene.reset();
     const FilmContent content = film_content(scene, aovs, flat.frame);
     DeviceWaves waves = compiled(device, flat, options, progress, report);
-    const WorkSizes sizes = sizes_in_memory(need, flat.bytes(), progress);
+    const std::vector<WorkSizes> sizes = sizes_in_memory(need, flat.bytes(), progress);
     const auto start = Clock::now();
-    auto engine = std::make_unique<DeviceEngine>(device, std::move(flat), std::move(waves), sizes);
-    engine->allocate(scene, aovs, options.checked, options.scratch);
+    auto engine = std::make_unique<DeviceEngine>(device, std::move(flat), std::move(waves));
+    const WorkSizes found = engine->allocate(scene, aovs, options.checked, options.scratch, sizes);
+    note_smaller_pool(sizes.front(), found, progress);
     report.upload_seconds = seconds_since(start);
-    return {std::move(engine), content, sizes.film.blocks(), samples, std::move(report)};
+    return {std::move(engine), content, found.film.blocks(), samples, std::move(report)};
 }
 
 RenderResult rendered(OpenedRender opened, Progress& progress) {

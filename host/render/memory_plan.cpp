@@ -55,7 +55,7 @@ std::uint64_t room_beside(const MemoryNeed& need, std::uint64_t scene_bytes) {
     return need.limit > used ? need.limit - used : 0;
 }
 
-WorkSizes planned_in(const MemoryNeed& need, std::uint64_t room) {
+std::vector<WorkSizes> planned_in(const MemoryNeed& need, std::uint64_t room) {
     const FilmLayout film = film_layout(need.scene, need.aovs);
     MemoryNeed planned = need;
     if (need.limit > 0) planned.split.pool_paths = paths_in(need, film, room);
@@ -66,7 +66,7 @@ WorkSizes planned_in(const MemoryNeed& need, std::uint64_t room) {
     const std::size_t asked = planned.split.film_bytes;
     const FilmLayout in_room = in_bands(film, asked > 0 ? asked : at_once);
     if (in_room.bytes() > at_once) refuse_row(need, film, at_once);
-    return sizes_of(planned, in_room, planned.split.pool_paths);
+    return pool_choices(in_room, need.scene.sampler.samples_per_pixel, need.lanes, planned.split);
 }
 
 /// Where nothing is said, half of what there is, so that the rest of the machine has some.
@@ -114,10 +114,11 @@ void check_memory(const MemoryNeed& need) {
         megabytes(pool + row), megabytes(passing_bytes), megabytes(least) + 1));
 }
 
-WorkSizes sizes_in_memory(const MemoryNeed& need, std::uint64_t scene_bytes, Progress& progress) {
+std::vector<WorkSizes> sizes_in_memory(const MemoryNeed& need, std::uint64_t scene_bytes,
+                                       Progress& progress) {
     const std::uint64_t room = need.limit > 0 ? room_beside(need, scene_bytes) : room_there(need);
-    const WorkSizes sizes = planned_in(need, room);
-    note(progress, need, sizes);
+    std::vector<WorkSizes> sizes = planned_in(need, room);
+    note(progress, need, sizes.front());
     return sizes;
 }
 

@@ -27,7 +27,9 @@ void check_memory(const MemoryNeed& need);
 
 /// Once the scene, whose records are so many bytes, and the kernels are there: a pool that is
 /// halved until it has room, and a film of which one band at a time is in memory where it is more
-/// than fits. Both are noted. Throws InputError where not even a row of blocks has room.
-WorkSizes sizes_in_memory(const MemoryNeed& need, std::uint64_t scene_bytes, Progress& progress);
+/// than fits. Both are noted. For a device that turns out to have less, smaller pools follow
+/// (pool_choices). Throws InputError where not even a row of blocks has room.
+std::vector<WorkSizes> sizes_in_memory(const MemoryNeed& need, std::uint64_t scene_bytes,
+                                       Progress& progress);
 
 } // namespace parhelion

@@ -10,9 +10,13 @@ namespace parhelion {
 namespace {
 
 nlohmann::json to_json(const StageReport& s) {
-    return {{"name", s.name},         {"kernel_seconds", s.kernel_seconds},
-            {"launches", s.launches}, {"compile_seconds", s.compile_seconds},
-            {"cached", s.cached},     {"features", s.features}};
+    return {{"name", s.name},
+            {"kernel_seconds", s.kernel_seconds},
+            {"longest_launch_seconds", s.longest_launch_seconds},
+            {"launches", s.launches},
+            {"compile_seconds", s.compile_seconds},
+            {"cached", s.cached},
+            {"features", s.features}};
 }
 
 nlohmann::json to_json(const FaultCount& f) {

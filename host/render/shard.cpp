@@ -30,7 +30,7 @@ int share_begin(int all, int number, int count) {
 }
 
 SampleSet groups_of(const Shard& shard, int blocks, int samples) {
-    const int groups = (samples + FILM_SAMPLES - 1) / FILM_SAMPLES;
+    const int groups = samples / FILM_SAMPLES + (samples % FILM_SAMPLES > 0 ? 1 : 0);
     const auto begin = [&](int number) {
         const std::int64_t sample =
             std::int64_t{FILM_SAMPLES} * share_begin(groups, number, shard.count);

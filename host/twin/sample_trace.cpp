@@ -147,7 +147,7 @@ public:
         }
     }
     std::span<const int> read_counts() const { return launch_.memory.counts; }
-    void end_wave() {}
+    double end_wave() { return 0; }
 
     SampleTrace take() { return std::move(trace_); }
 

@@ -22,7 +22,7 @@ public:
         });
     }
     std::span<const int> read_counts() const { return launch_.memory.counts; }
-    void end_wave() {}
+    double end_wave() { return 0; }
 
 private:
     HostLaunch<Real> launch_;

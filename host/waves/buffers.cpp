@@ -1,6 +1,7 @@
 // The buffers of kernels/device/buffers.h on a device, by name.
 #include "host/waves/buffers.h"
 
+#include "host/cl/queue_end.h"
 #include "host/waves/kernel_arguments.h"
 #include "kernels/device/bounds.h"
 
@@ -33,6 +34,7 @@ Buffer<T> zeroed(const cl::Context& context, const cl::CommandQueue& queue, std:
 WaveBuffers wave_buffers(const cl::Context& context, const cl::CommandQueue& queue,
                          const BufferCounts& counts) {
     WaveBuffers work;
+    const QueueEnd end(queue);
 #define ALLOCATE(type, name) work.name = zeroed<type>(context, queue, #name, counts.name);
     WAVE_BUFFERS(ALLOCATE)
     return work;

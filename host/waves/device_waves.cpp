@@ -2,6 +2,10 @@
 // waves.
 #include "host/waves/device_waves.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace parhelion {
 
 DeviceWaves::DeviceWaves(RenderDevice& device, const StageOptions& options)
@@ -11,14 +15,38 @@ void DeviceWaves::upload(const DeviceScene& scene) {
     scene_ = scene_buffers(device_.context, device_.queue, scene_arrays(scene));
 }
 
-void DeviceWaves::allocate(const WorkSizes& s, const RenderParams& params) {
-    for (int band = 0; band < s.bands_at_once; band++)
-        films_.push_back(
-            Buffer<cl_uint>::zeros(device_.context, device_.queue, "film", buffer_counts(s).film));
-    for (int i = 0; i < s.streams; i++) {
-        streams_.emplace_back(device_, stages_, s);
-        streams_.back().bind(scene_, films_, params);
+void DeviceWaves::make_streams(const WorkSizes& s, const RenderParams& params) {
+    streams_.clear();
+    try {
+        for (int i = 0; i < s.streams; i++) {
+            streams_.emplace_back(device_, stages_, s);
+            streams_.back().bind(scene_, films_, params);
+        }
+        for (WaveStream& stream : streams_)
+            stream.try_out();
+    } catch (const cl::Error& e) {
+        if (!says_no_room(e.err())) throw;
+        throw NoRoom(fmt::format("the device has no room for {} paths at once: {} in {}",
+                                 s.streams * s.path_capacity, opencl_error_name(e.err()),
+                                 e.what()));
     }
+}
+
+WorkSizes DeviceWaves::allocate(std::span<const WorkSizes> sizes,
+                                const std::function<RenderParams(const WorkSizes&)>& params) {
+    for (int band = 0; band < sizes.front().bands_at_once; band++)
+        films_.push_back(Buffer<cl_uint>::zeros(device_.context, device_.queue, "film",
+                                                buffer_counts(sizes.front()).film));
+    for (const WorkSizes& s : sizes.first(sizes.size() - 1)) {
+        try {
+            make_streams(s, params(s));
+            return s;
+        } catch (const NoRoom&) {
+            streams_.clear();
+        }
+    }
+    make_streams(sizes.back(), params(sizes.back()));
+    return sizes.back();
 }
 
 std::vector<ulong> DeviceWaves::read_statistics() {
@@ -43,6 +71,8 @@ std::vector<StageReport> DeviceWaves::stage_reports() const {
         for (std::size_t i = 0; i < stage_count; i++) {
             const StageTime& time = stream.stage_times()[i];
             reports[i].kernel_seconds += time.kernel_seconds;
+            reports[i].longest_launch_seconds =
+                std::max(reports[i].longest_launch_seconds, time.longest_seconds);
             reports[i].launches += time.launches;
         }
     return reports;

@@ -6,6 +6,8 @@
 #include "host/waves/wave_stream.h"
 
 #include <deque>
+#include <functional>
+#include <span>
 
 namespace parhelion {
 
@@ -17,8 +19,10 @@ public:
     /// `scene` must outlive the waves and not change: a CPU reads its large arrays where they
     /// are.
     void upload(const DeviceScene& scene);
-    /// Film and streams, bound to the scene and the parameters.
-    void allocate(const WorkSizes& sizes, const RenderParams& params);
+    /// Film and streams, bound to the scene and the parameters of those sizes: of `sizes`, larger
+    /// ones first, the first that the device has room for, which is returned. Throws NoRoom.
+    WorkSizes allocate(std::span<const WorkSizes> sizes,
+                       const std::function<RenderParams(const WorkSizes&)>& params);
 
     std::vector<WaveStream>& streams() { return streams_; }
     /// Of each band of the film.
@@ -47,6 +51,8 @@ public:
     std::size_t film_bytes() const;
 
 private:
+    void make_streams(const WorkSizes& sizes, const RenderParams& params);
+
     RenderDevice& device_;
     StagePrograms stages_;
     SceneBuffers scene_;

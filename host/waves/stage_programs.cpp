@@ -3,6 +3,7 @@
 
 #include "host/cl/buffer.h"
 #include "host/cl/driver_watch.h"
+#include "host/cl/queue_end.h"
 #include "host/cl/work_groups.h"
 #include "host/clock.h"
 #include "host/error.h"
@@ -73,6 +74,7 @@ void launch_empty(const RenderDevice& d, const Wanted& w, const Program& program
     int work_group_size = options.work_group_size;
     Buffer<ulong> zeros(d.context, "zeros",
                         static_cast<std::size_t>(statistic_count) * work_group_size);
+    const QueueEnd end(d.queue);
     zeros.fill_zero(d.queue);
     for (std::size_t stage = 0; stage < stage_count; stage++) {
         if (stage_groups[stage] != w.group) continue;

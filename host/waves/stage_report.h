@@ -9,7 +9,8 @@ namespace parhelion {
 
 struct StageReport {
     std::string name;
-    double kernel_seconds = 0.0; ///< on the device, summed over launches
+    double kernel_seconds = 0.0;         ///< on the device, summed over launches
+    double longest_launch_seconds = 0.0; ///< likewise, of one
     std::uint64_t launches = 0;
     double compile_seconds = 0.0;
     bool cached = false;

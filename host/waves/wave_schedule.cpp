@@ -1,6 +1,8 @@
 // Which wave comes next: all blocks for some samples, then for the next ones; streams take turns.
 #include "host/waves/wave_schedule.h"
 
+#include "host/waves/wave_pace.h"
+
 #include <algorithm>
 
 namespace parhelion {
@@ -18,7 +20,8 @@ bool share_blocks(const SampleRange& range, const Wave& wave) {
 } // namespace
 
 WaveSchedule::WaveSchedule(const SampleSet& todo, const WaveLimits& limits)
-    : limits_(limits), todo_(todo.begin(), todo.end()), left_(sample_count(todo)) {}
+    : limits_(limits), limit_(first_wave_limit(limits.block_samples)),
+      todo_(todo.begin(), todo.end()), left_(sample_count(todo)) {}
 
 bool WaveSchedule::is_free(const SampleRange& range, const Wave& taken) const {
     return !share_blocks(range, taken) &&
@@ -46,15 +49,18 @@ SampleRange WaveSchedule::take_piece(int samples, int blocks) {
 
 /// Empty where what comes next has to wait.
 Wave WaveSchedule::next_wave() {
+    // What is added up together must be in one wave.
+    const int most_samples =
+        std::min(limits_.samples, std::max(FILM_SAMPLES, limit_ / FILM_SAMPLES * FILM_SAMPLES));
     Wave wave;
     int room = 0;
     while (!todo_.empty()) {
         const SampleRange& next = todo_.front();
-        const int samples = std::min(limits_.samples, next.end - next.first);
+        const int samples = std::min(most_samples, next.end - next.first);
         const int band = next.first_block / limits_.band_blocks;
         if (wave.ranges.empty()) {
             wave.band = band;
-            room = std::max(1, limits_.block_samples / samples);
+            room = std::max(1, limit_ / samples);
         } else if (room == 0 || samples != wave.samples() || band != wave.band) {
             break;
         }
@@ -81,8 +87,10 @@ std::optional<Wave> WaveSchedule::take() {
     return std::nullopt;
 }
 
-void WaveSchedule::finish(const Wave& wave) {
+void WaveSchedule::finish(const Wave& wave, double longest_launch) {
     std::scoped_lock lock(mutex_);
+    limit_ = next_wave_limit(limit_, limits_.block_samples, wave.blocks() * wave.samples(),
+                             longest_launch);
     done_ = done_ | wave.ranges;
     left_ -= sample_count(wave.ranges);
     under_way_.erase(std::find_if(under_way_.begin(), under_way_.end(),

@@ -27,8 +27,9 @@ public:
 
     /// None: nothing is left, or it was stopped.
     std::optional<Wave> take();
-    /// A wave that was taken is on the film.
-    void finish(const Wave& wave);
+    /// A wave that was taken is on the film; the longest of its launches took so many seconds, 0
+    /// where that is not known. Later waves are as large as that allows (wave_pace.h).
+    void finish(const Wave& wave, double longest_launch = 0);
     /// No more waves, and nobody waits any longer.
     void stop();
     /// After a stop, once all waves that were taken are finished.
@@ -45,6 +46,7 @@ private:
     Wave next_wave();
 
     WaveLimits limits_;
+    int limit_; ///< of the next wave, blocks times samples
     std::deque<SampleRange> todo_;
     std::vector<Wave> under_way_;
     SampleSet done_;

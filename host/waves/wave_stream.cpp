@@ -3,14 +3,16 @@
 
 #include "host/waves/kernel_arguments.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace parhelion {
 
 WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs,
                        const WorkSizes& s)
     : queue_(device.context, device.device.handle, CL_QUEUE_PROFILING_ENABLE),
-      no_film_(device.context, "film", 0), band_blocks_(s.film.band_blocks),
-      outside_(device.context, "outside", 1), result_stride_(s.result_stride()),
-      checked_(programs.checked), work_group_size_(s.work_group_size) {
+      no_film_(device.context, "film", 0), sizes_(s), outside_(device.context, "outside", 1),
+      checked_(programs.checked), end_(queue_) {
     for (std::size_t stage = 0; stage < stage_count; stage++)
         kernels_.push_back(programs.programs[stage].kernel(stage_names[stage]));
     work_ = wave_buffers(device.context, queue_, buffer_counts(s));
@@ -21,6 +23,7 @@ WaveStream::WaveStream(const RenderDevice& device, const StagePrograms& programs
 
 void WaveStream::bind(const SceneBuffers& scene, const std::vector<Buffer<cl_uint>>& films,
                       const RenderParams& params) {
+    params_ = params;
     films_.clear();
     films_.reserve(films.size());
     for (const Buffer<cl_uint>& film : films)
@@ -38,32 +41,47 @@ void WaveStream::begin_wave(const Wave& wave) {
     blocks_ = wave_blocks(wave);
     queue_.enqueueWriteBuffer(work_.wave_blocks.handle(), CL_FALSE, 0,
                               blocks_.size() * sizeof(WaveBlock), blocks_.data());
-    const WaveParams params = wave_params(wave, band_blocks_);
+    const WaveParams params = wave_params(wave, sizes_.film.band_blocks);
     for (cl::Kernel& kernel : kernels_)
         kernel.setArg(wave_argument, params);
     kernels_[static_cast<std::size_t>(Stage::accumulate)].setArg(
         film_argument, films_[static_cast<std::size_t>(wave.band) % films_.size()]);
+    params_.segment_size =
+        sizes_.used_segment_size(BLOCK_PIXELS * params.block_count * params.sample_count);
+    kernels_[static_cast<std::size_t>(Stage::generate)].setArg(params_argument, params_);
+}
+
+void WaveStream::try_out() {
+    for (cl::Kernel& kernel : kernels_)
+        kernel.setArg(wave_argument, WaveParams{});
+    for (std::size_t i = 0; i < stage_count; i++) {
+        const auto stage = static_cast<Stage>(i);
+        launch(stage, 0, stage == Stage::accumulate ? sizes_.block_capacity() : sizes_.segments);
+    }
+    end_wave();
+    times_ = {};
 }
 
 void WaveStream::launch(Stage stage, int depth, int work_items) {
     auto i = static_cast<std::size_t>(stage);
     kernels_[i].setArg(depth_argument, depth);
-    int groups = (work_items + work_group_size_ - 1) / work_group_size_;
-    std::size_t global = static_cast<std::size_t>(groups) * work_group_size_;
+    const int group = sizes_.work_group_size, groups = (work_items + group - 1) / group;
+    std::size_t global = static_cast<std::size_t>(groups) * group;
     cl::Event event;
-    queue_.enqueueNDRangeKernel(kernels_[i], cl::NullRange, cl::NDRange(global),
-                                cl::NDRange(work_group_size_), nullptr, &event);
+    queue_.enqueueNDRangeKernel(kernels_[i], cl::NullRange, cl::NDRange(global), cl::NDRange(group),
+                                nullptr, &event);
     pending_.emplace_back(i, event);
 }
 
 std::span<const int> WaveStream::read_counts() {
     work_.counts.read(queue_, counts_.data());
+    look_at_launches(); // counts mean nothing where the device is lost: a path would never end
     return counts_;
 }
 
 std::vector<float> WaveStream::read_results(int channel, std::size_t slots) {
     std::vector<float> values(slots);
-    work_.results.read(queue_, static_cast<std::size_t>(channel) * result_stride_, slots,
+    work_.results.read(queue_, static_cast<std::size_t>(channel) * sizes_.result_stride(), slots,
                        values.data());
     return values;
 }
@@ -86,15 +104,26 @@ const char* WaveStream::read_outside() {
     return buffer_left(number);
 }
 
-void WaveStream::end_wave() {
-    queue_.finish();
+void WaveStream::look_at_launches() {
     for (const auto& [stage, event] : pending_) {
+        // Of a kernel that has failed not every driver tells when it is waited for.
+        if (const cl_int status = event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(); status < 0)
+            throw cl::Error(status, stage_names[stage]);
         cl_ulong begin = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
         cl_ulong end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-        times_[stage].kernel_seconds += 1e-9 * static_cast<double>(end - begin);
+        const double seconds = 1e-9 * static_cast<double>(end - begin);
+        times_[stage].kernel_seconds += seconds;
+        times_[stage].longest_seconds = std::max(times_[stage].longest_seconds, seconds);
         times_[stage].launches++;
+        longest_ = std::max(longest_, seconds);
     }
     pending_.clear();
+}
+
+double WaveStream::end_wave() {
+    queue_.finish();
+    look_at_launches();
+    return std::exchange(longest_, 0);
 }
 
 } // namespace parhelion

@@ -1,6 +1,7 @@
 // A pool of paths with a queue of its own: launches the stages of one wave after the other.
 #pragma once
 
+#include "host/cl/queue_end.h"
 #include "host/waves/buffers.h"
 #include "host/waves/stage_programs.h"
 #include "host/waves/wave.h"
@@ -13,7 +14,7 @@ namespace parhelion {
 
 /// What a stage has taken so far.
 struct StageTime {
-    double kernel_seconds = 0;
+    double kernel_seconds = 0, longest_seconds = 0; ///< of all launches, of one
     std::size_t launches = 0;
 };
 
@@ -31,8 +32,11 @@ public:
     void launch(Stage stage, int depth, int work_items);
     /// Of all segments after the last launch; waits for it.
     std::span<const int> read_counts();
-    /// Waits for the device, and adds what each stage took.
-    void end_wave();
+    /// Waits for the device, and adds what each stage took; the longest launch, seconds.
+    double end_wave();
+    /// Launches every stage without a path: a driver that looks for memory only then has found it,
+    /// or says so, while nothing is on the film.
+    void try_out();
 
     /// What the first `slots` of the pool have of a channel of results.
     std::vector<float> read_results(int channel, std::size_t slots);
@@ -49,6 +53,9 @@ public:
     std::size_t bad_sample_bytes() const { return work_.bad_samples.bytes(); }
 
 private:
+    /// Of those that have ended. Throws where one has failed.
+    void look_at_launches();
+
     cl::CommandQueue queue_;
     std::vector<cl::Kernel> kernels_; // arguments belong to a kernel: one for each stream and Stage
     WaveBuffers work_;
@@ -56,15 +63,16 @@ private:
     /// other.
     Buffer<cl_uint> no_film_;
     std::vector<cl::Buffer> films_;
-    int band_blocks_;
+    WorkSizes sizes_;
+    RenderParams params_{};
     std::vector<WaveBlock> blocks_; ///< of the wave
     Buffer<cl_uint> outside_;       ///< of checked kernels
-    std::size_t result_stride_;
     bool checked_;
-    int work_group_size_;
     std::vector<std::pair<std::size_t, cl::Event>> pending_;
     std::array<StageTime, stage_count> times_{};
+    double longest_ = 0; ///< of the wave's launches
     std::vector<int> counts_;
+    QueueEnd end_; // before all of these
 };
 
 } // namespace parhelion

@@ -22,7 +22,8 @@ concept WaveDevice = requires(Device& device, const Wave& wave, Stage stage, int
     device.launch(stage, depth, work_items);
     // After the last launch: of each segment its live paths and its shadow rays.
     { device.read_counts() } -> std::convertible_to<std::span<const int>>;
-    device.end_wave();
+    // Waits; how long the longest launch took, seconds, or 0.
+    { device.end_wave() } -> std::convertible_to<double>;
 };
 
 /// What the loop depends on beside the wave.
@@ -36,9 +37,10 @@ inline WaveLoop wave_loop(const WorkSizes& sizes, const RenderParams& params,
     return {sizes.segments, params.max_depth, features.has(feature_next_event)};
 }
 
-/// All bounces of one wave, then its samples to the film.
+/// All bounces of one wave, then its samples to the film. How long the longest launch took,
+/// seconds; 0 where that is not known.
 template<WaveDevice Device>
-void trace_wave(Device& device, const Wave& wave, const WaveLoop& loop) {
+double trace_wave(Device& device, const Wave& wave, const WaveLoop& loop) {
     device.begin_wave(wave);
     device.launch(Stage::generate, 0, loop.segments);
     for (int depth = 0; depth < loop.max_depth; depth++) {
@@ -53,7 +55,7 @@ void trace_wave(Device& device, const Wave& wave, const WaveLoop& loop) {
         if (paths == 0) break;
     }
     device.launch(Stage::accumulate, 0, wave.blocks());
-    device.end_wave();
+    return device.end_wave();
 }
 
 /// Waves until there are none left. A host thread for each of several devices: while one waits for
@@ -67,10 +69,10 @@ void trace_waves(std::span<Device> devices, WaveSchedule& schedule, const WaveLo
     auto run = [&](Device& device) {
         try {
             while (auto wave = schedule.take()) {
-                trace_wave(device, *wave, loop);
+                const double longest = trace_wave(device, *wave, loop);
                 gather(device, *wave);
                 std::scoped_lock lock(telling);
-                schedule.finish(*wave);
+                schedule.finish(*wave, longest);
                 on_wave();
             }
         } catch (...) {

@@ -36,8 +36,8 @@ WorkSizes work_sizes(const FilmLayout& film, int samples, int lanes, const WorkS
     s.blocks_per_wave =
         static_cast<int>(std::min<std::int64_t>(groups / s.samples_per_wave, blocks));
     s.path_capacity = s.blocks_per_wave * s.samples_per_wave * BLOCK_PIXELS;
-    s.segment_size = lanes == 1 ? std::max(1, split.segment_paths)
-                                : rounded_up(std::max(1, split.segment_paths), 16);
+    s.segment_unit = lanes == 1 ? 1 : 16;
+    s.segment_size = rounded_up(std::max(1, split.segment_paths), s.segment_unit);
     s.segment_size = std::min(s.segment_size, s.path_capacity);
     s.segment_stride = s.segment_size + (lanes == 1 ? 0 : SEGMENT_PADDING);
     s.segments =
@@ -48,6 +48,20 @@ WorkSizes work_sizes(const FilmLayout& film, int samples, int lanes, const WorkS
                         "--segment-paths, --work-group-size; accepted: 2^31 paths together)",
                         s.segments, s.segment_size));
     return s;
+}
+
+int WorkSizes::used_segment_size(int paths) const {
+    return std::min(segment_size, rounded_up((paths + segments - 1) / segments, segment_unit));
+}
+
+std::vector<WorkSizes> pool_choices(const FilmLayout& film, int samples, int lanes,
+                                    WorkSplit split) {
+    std::vector<WorkSizes> choices{work_sizes(film, samples, lanes, split)};
+    for (; split.pool_paths > 1; split.pool_paths /= 2) {
+        const WorkSizes s = work_sizes(film, samples, lanes, split);
+        if (s.path_capacity < choices.back().path_capacity) choices.push_back(s);
+    }
+    return choices;
 }
 
 BufferCounts buffer_counts(const WorkSizes& s) {

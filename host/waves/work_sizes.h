@@ -5,6 +5,7 @@
 #include "host/waves/wave_schedule.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace parhelion {
 
@@ -23,6 +24,7 @@ struct WorkSizes {
     int streams = 1;
     int samples_per_wave = 1, blocks_per_wave = 1, path_capacity = 16;
     int segments = 1, segment_size = 16, segment_stride = 32;
+    int segment_unit = 1; ///< that sizes of segments are multiples of: what is handled at once
     int work_group_size = 1;
     FilmLayout film;
     int bands_at_once = 1; ///< of the film, in memory
@@ -34,6 +36,9 @@ struct WorkSizes {
     }
     /// Of a wave, of one sample each.
     int block_capacity() const { return path_capacity / BLOCK_PIXELS; }
+    /// Of the segments' size what a wave of `paths` uses: each segment has as many of them, so that
+    /// fewer paths take less time also where a work-item of each is under way at once.
+    int used_segment_size(int paths) const;
     WaveLimits wave_limits() const {
         return {samples_per_wave, film.band_blocks, block_capacity()};
     }
@@ -41,6 +46,11 @@ struct WorkSizes {
 
 /// `split.streams` must be chosen. Throws InputError for more paths than a device counts.
 WorkSizes work_sizes(const FilmLayout& film, int samples, int lanes, const WorkSplit& split);
+
+/// Those of the pool that is asked for, then of the half of it and so on, down to one group of
+/// samples of a block a stream: what a device has room for is one of them. At least one.
+std::vector<WorkSizes> pool_choices(const FilmLayout& film, int samples, int lanes,
+                                    WorkSplit split);
 
 #define BUFFER_COUNT(type, name) std::size_t name;
 /// Elements of the work buffers: those of one stream, and a band of the film, which all streams

@@ -1,19 +1,20 @@
 #!/bin/bash
 # What surrounds the program is broken, and it neither aborts nor changes a bit of the image nor names the wrong cause.
-# Usage: run.sh PARHELION GROUP; a group that this machine does not allow ends with 77, which ctest takes for skipped.
+# Usage: run.sh PARHELION GROUP [LAYER]; a group that this machine does not allow ends with 77, which ctest takes for skipped.
 #
 # caches   the folder of compiled programs: cold, warm, damaged in every way, not to be made, unset, bounded, shared
 # disks    full, read-only and noexec file systems (needs to mount some)
 # drivers  no driver, one that cannot be loaded, devices that PoCL is told to offer
 # memory   `ulimit -v` from nothing to enough
 # doctor   what it says of all of these, and that it says nothing else of the environment
+# full_device, lost_device, slow_device  LAYER, a layer of OpenCL's (faulty_driver.cpp), has the device be so
 # children processes that compile beside end with the one that started them
 # shellcheck disable=SC2317 # functions that are called by the name they are given
 set -uo pipefail
 parhelion=$(readlink -f -- "$1")
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)
 scene=scene.xml
-group=$2
+group=$2 layer=${3:+$(readlink -f -- "$3")}
 work=$(mktemp -d)
 mounted=()
 finish() {
@@ -295,6 +296,119 @@ doctor() {
     examined "one processor" 0 'this process may run on 1 of [0-9]+ processors' taskset -c 0
 }
 
+# with_faults VARIABLE=VALUE... COMMAND...: COMMAND on a device that fails in that way.
+with_faults() { env OPENCL_LAYERS="$layer" "$@"; }
+
+# A scene of many waves, to see a device fail in the middle of one: 64 blocks of 160 samples.
+needs_layer() {
+    [[ -n $layer ]] || { echo "skipped: no layer is given"; exit 77; }
+    sed -e 's/"depth"/"path"/' scene.xml >path.xml
+    paths=(path.xml --size 32x32 --spp 160)
+    "$parhelion" render "${paths[@]}" -o whole.exr --quiet --force >messages 2>&1 || fail "a whole device" "exit code $?" messages
+    with_faults "$parhelion" render "${paths[@]}" -o image.exr --quiet --force >messages 2>&1
+    cmp -s image.exr whole.exr || fail "a layer without faults" "another image" messages
+    # A loader without layers takes no notice of it.
+    ! with_faults FAULTY_ROOM=0 "$parhelion" render "${paths[@]}" -o image.exr --quiet --force >messages 2>&1 ||
+        { echo "skipped: this OpenCL loader has no layers"; exit 77; }
+}
+
+# faulty NAME CODE TEXT VARIABLE=VALUE... -- OPTIONS...: a render on such a device ends with CODE and one line like TEXT, or where
+# CODE is 0 with that note and the bits of a whole device. What there was stays; nothing else is left.
+faulty() {
+    local name=$1 code=$2 text=$3 status faults=()
+    shift 3
+    while [[ $1 != -- ]]; do faults+=("$1") && shift; done
+    rm -f image.exr && echo older >image.exr
+    with_faults "${faults[@]}" timeout -k 5 120 "$parhelion" render "${paths[@]}" -o image.exr --force --progress lines "${@:2}" \
+        >messages 2>&1 </dev/null
+    status=$?
+    [[ $status == "$code" ]] || { fail "$name" "exit code $status, not $code" messages; return; }
+    grep -Eq -- "$text" messages || { fail "$name" "nothing like '$text' is said" messages; return; }
+    if ((code == 0)); then
+        cmp -s image.exr whole.exr || { fail "$name" "another image" messages; return; }
+    else
+        [[ $(grep -c '^parhelion:' messages) == 1 && $(tail -1 messages) == parhelion:* ]] || fail "$name" "more than a line" messages
+        [[ $(cat image.exr) == older ]] || fail "$name" "the older image is gone"
+    fi
+    [[ -z $(ls -A "$TMPDIR") ]] || { fail "$name" "left $(ls "$TMPDIR")"; rm -rf "${TMPDIR:?}"/*; }
+    local left
+    left=$(printf '%s\n' * .[!.]* | grep -Evx 'cache|home|tmp|messages|(scene|path)\.xml|(image|whole)\.exr|(kept|before)\.film|stats\.json|\.\[!\.\]\*')
+    [[ -z $left ]] || fail "$name" "left $left"
+    printf '%s: passed\n' "$name"
+}
+
+# How many paths are in flight where there was no room for more.
+pool_of() { sed -n 's/.*has no room for [0-9]* paths in flight: there are \([0-9]*\) .*/\1/p' messages; }
+
+full_device() {
+    local room last=65536 pool halved=0
+    needs_layer
+    # Down from enough; what is too little even for the smallest pool is refused.
+    for room in 9000000 6000000 3000000 2000000 1500000; do
+        faulty "room for $room bytes" 0 'no room for [0-9]* paths in flight: there are [0-9]*.* the image is the same' \
+            FAULTY_ROOM="$room" --
+        pool=$(pool_of)
+        ((${pool:-0} > 0 && pool <= last)) || fail "room for $room bytes" "a pool of ${pool:-nothing} after one of $last"
+        ((pool == last)) || halved=$((halved + 1))
+        last=${pool:-0}
+    done
+    ((halved >= 3)) || fail "less and less room" "the pool was made smaller $halved times"
+    faulty "no room" 3 'parhelion: the device has no room for buffer' FAULTY_ROOM=100000 --
+    # A driver that looks for memory when kernels are launched.
+    faulty "no room at the first launch" 0 'no room for [0-9]* paths in flight: there are' FAULTY_ITEMS=100 --
+    faulty "never room at a launch" 3 'no room for [0-9]* paths at once: CL_OUT_OF_RESOURCES \(-5\) in clEnqueueNDRangeKernel' \
+        FAULTY_ITEMS=1 --
+    faulty "a film that is more than the device has" 2 'has 0\.0 GB' FAULTY_MEMORY=100000 --
+}
+
+# lost SILENT: a device that is lost after so many launches, earlier and later.
+lost() {
+    local fault=$1 launches kept=0
+    for launches in 0 3 30 60 200 500; do
+        rm -f kept.film
+        faulty "$fault=$launches" 3 'CL_[A-Z_]* \(-[0-9]*\) in |no room for buffer' "$fault=$launches" -- \
+            --checkpoint kept.film --checkpoint-every 0.001 --pool-paths 4096
+        [[ -e kept.film ]] || continue
+        grep -q 'the device failed while rendering: CL_.*; --resume kept.film goes on' messages ||
+            fail "$fault=$launches" "does not say how to go on" messages
+        kept=$((kept + 1))
+        cp kept.film before.film
+        # Once more, from what was kept: what that was stays.
+        faulty "$fault=$launches, again" 3 'failed while rendering: CL_.*; --resume before.film goes on' "$fault=40" -- \
+            --resume before.film --pool-paths 4096
+        cmp -s kept.film before.film || fail "$fault=$launches" "the checkpoint is another"
+        "$parhelion" render "${paths[@]}" -o image.exr --force --quiet --resume before.film >messages 2>&1 ||
+            fail "$fault=$launches" "cannot be gone on with" messages
+        cmp -s image.exr whole.exr || fail "$fault=$launches" "gone on with, it is another image"
+        rm -f before.film
+    done
+    ((kept >= 2)) || fail "$fault" "there was a checkpoint only $kept times"
+    faulty "$fault, nothing kept" 3 'failed while rendering: .*; there is no checkpoint to go on from' "$fault=60" -- --pool-paths 4096
+}
+
+lost_device() {
+    needs_layer
+    lost FAULTY_LOST
+    lost FAULTY_LOST_SILENT
+}
+
+# number KEY: the largest of that key in stats.json.
+largest() { grep -o "\"$1\": [0-9.e-]*" stats.json | sed 's/.* //' | sort -g | tail -1; }
+
+slow_device() {
+    local nanoseconds longest
+    needs_layer
+    # By the device's clock a wave of 65536 paths, in two halves, would take 0.07 to 0.7 s a launch.
+    for nanoseconds in 2000 5000 20000; do
+        faulty "$nanoseconds ns a path" 0 'rendering' FAULTY_NANOSECONDS="$nanoseconds" -- --stats stats.json
+        longest=$(largest longest_launch_seconds)
+        awk "BEGIN { exit !($longest < 0.1 && $longest > 0.02) }" || fail "$nanoseconds ns a path" "a launch of $longest s"
+    done
+    # One that has no clock.
+    faulty "no clock" 0 'rendering' FAULTY_NANOSECONDS=0 -- --stats stats.json
+    [[ $(largest longest_launch_seconds) == 0* ]] || fail "no clock" "a launch of $(largest longest_launch_seconds) s"
+}
+
 case $group in
     caches) caches ;;
     disks) disks ;;
@@ -302,6 +416,7 @@ case $group in
     memory) memory ;;
     children) children ;;
     doctor) doctor ;;
+    full_device | lost_device | slow_device) "$group" ;;
     *) echo "no such group: $group" && exit 2 ;;
 esac
 ((failed || !left_out)) || exit 77 # a part of a group is missing: not passed either

@@ -38,7 +38,8 @@ const char* left_buffer(const Scene& scene, const DeviceScene& flat) {
     WorkSizes sizes =
         work_sizes(film_layout(scene, aovs), scene.sampler.samples_per_pixel, 16, split);
     waves.upload(flat);
-    waves.allocate(sizes, render_params(scene, flat, sizes, aovs));
+    waves.allocate(std::span(&sizes, 1),
+                   [&](const WorkSizes& s) { return render_params(scene, flat, s, aovs); });
     WaveStream& stream = waves.streams().front();
     stream.begin_wave({{{0, sizes.blocks_per_wave, 0, sizes.samples_per_wave}}});
     for (Stage stage : {Stage::generate, Stage::intersect, Stage::shade})

@@ -52,7 +52,7 @@ public:
              [&](int slot, int left) { check("shadow ray", slot, left); });
     }
     std::span<const int> read_counts() const { return launch_.memory.counts; }
-    void end_wave() {}
+    double end_wave() { return 0; }
 
     int camera = 0;
     std::map<std::string, int> flat, rounds;

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <limits>
 #include <set>
 
 using namespace parhelion;
@@ -94,4 +95,22 @@ TEST_CASE("Shards: what is no part of anything is refused") {
         CHECK_THROWS_WITH(parse_shard(text), Catch::StartsWith("--shard: found"));
     CHECK(parse_shard("7/16").number == 7);
     CHECK(parse_shard("7/16").count == 16);
+}
+
+TEST_CASE("Shards: of as many samples as there can be, the last parts have the last of them") {
+    const int most = std::numeric_limits<int>::max(), blocks = 4096 * 4096;
+    for (const int count : {2, 65536}) {
+        std::int64_t sum = 0;
+        int end = 0;
+        for (int number = 1; number <= count; number++) {
+            const SampleSet part = shard_samples({number, count, Sharding::samples}, blocks, most);
+            REQUIRE(part.size() == 1);
+            REQUIRE(part[0].first == end);
+            REQUIRE(part[0].end > end);
+            end = part[0].end, sum += sample_count(part);
+        }
+        CHECK(end == most);
+        CHECK(sum == std::int64_t{blocks} * most);
+        CHECK(sum == sample_count(all_samples(blocks, most)));
+    }
 }

@@ -1,5 +1,6 @@
 // The long accumulator of the film: no error, no order, from the smallest single to sums of the
 // largest.
+#include "host/film/film_sums.h"
 #include "host/numerics/exact_sum.h"
 
 #include <catch2/catch.hpp>
@@ -147,4 +148,53 @@ TEST_CASE("Exact sums: the terms of a spread add up to it without error") {
     ExactSpread beyond; // squares that no single holds
     beyond.add({16, 1e30F, 0, 0});
     CHECK(beyond.second.value().high == double{INFINITY});
+}
+
+namespace {
+
+/// The sum with itself, as films are added up.
+std::array<std::uint32_t, EXACT_WORDS> twice(const std::array<std::uint32_t, EXACT_WORDS>& digits) {
+    SumRow row(1);
+    for (int time = 0; time < 2; time++)
+        add_digits(row, 0, 1, [&](int k) { return &digits.at(k); });
+    std::array<std::uint32_t, EXACT_WORDS> sum{};
+    for (int k = 0; k < EXACT_WORDS; k++)
+        sum.at(k) = row.digit(k)[0];
+    return sum;
+}
+
+double value_of(const std::array<std::uint32_t, EXACT_WORDS>& digits) {
+    return exact_value(digits.data(), 1).high;
+}
+
+} // namespace
+
+TEST_CASE("Exact sums: 2^34 samples below 2^105 have the mean of one, to the bit") {
+    Random random(9);
+    for (int i = 0; i < 2000; i++) {
+        const float x = any_single(random);
+        if (std::fabs(x) >= 0x1p105F) continue; // sums from 2^139 on are read as infinite
+        auto digits = digits_of({x});
+        for (int doubled = 0; doubled < 34; doubled++)
+            digits = twice(digits);
+        const double mean = value_of(digits) * 0x1p-34;
+        INFO(x);
+        REQUIRE(mean == double{x});
+    }
+    // Of the largest that is, 2^10.
+    auto digits = digits_of({-FLT_MAX});
+    for (int doubled = 0; doubled < 10; doubled++)
+        digits = twice(digits);
+    CHECK(value_of(digits) == -std::ldexp(double{FLT_MAX}, 10));
+}
+
+TEST_CASE("Exact sums: what is small is not lost among 2^34 that are large") {
+    // Twice 2^33 that nearly cancel, and the smallest single that there is.
+    auto up = digits_of({1e10F}), down = digits_of({-1e10F});
+    for (int doubled = 0; doubled < 33; doubled++)
+        up = twice(up), down = twice(down);
+    SumRow row(1);
+    for (const auto& digits : {up, digits_of({0x1p-149F}), down})
+        add_digits(row, 0, 1, [&](int k) { return &digits.at(k); });
+    CHECK(exact_value(row.digit(0).data(), 1).high == 0x1p-149);
 }

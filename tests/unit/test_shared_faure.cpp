@@ -8,6 +8,7 @@
 
 #include <array>
 #include <bit>
+#include <set>
 
 using namespace parhelion;
 using namespace parhelion::numerics;
@@ -95,6 +96,27 @@ TEST_CASE("Faure: 4^m samples fill every elementary interval in base 4 of the hy
                     }
         }
     SUCCEED();
+}
+
+TEST_CASE("Faure: the last samples of as many as there can be fill their parts like the first",
+          "[sampler]") {
+    for (const std::uint32_t first : {0u, 1u << 24, 1u << 30, (1u << 31) - 4096})
+        for (const int m : {0, 4, 12}) {
+            std::vector<Point> points;
+            for (std::uint32_t n = 0; n < 1u << m; n++)
+                points.push_back(point(3, first + 4096 - (1u << m) + n, 8, 1));
+            for (std::size_t d = 0; d < 4; d++) {
+                std::array<int, 4> bits{};
+                bits[d] = m;
+                CHECK(unfilled_cells(points, bits) == 0);
+            }
+            CHECK(unfilled_cells(points, {m / 2, m - m / 2, 0, 0}) == 0);
+        }
+    // And together with those before them: 2^12 of 2^31, spread evenly, fill 2^12 parts.
+    std::vector<Point> spread;
+    for (std::uint32_t n = 0; n < 4096; n++)
+        spread.push_back(point(3, n << 19, 8, 1));
+    CHECK(std::set<Point>(spread.begin(), spread.end()).size() == spread.size());
 }
 
 TEST_CASE("Faure: one sample is even over the square for every pair of coordinates, along pixels, "

@@ -6,6 +6,9 @@
 #include "host/numerics/statistics.h"
 #include "tests/support/even_grid.h"
 
+#include <array>
+#include <set>
+
 using namespace parhelion;
 using namespace parhelion::numerics;
 using test::grid_p_value;
@@ -48,6 +51,28 @@ TEST_CASE("Sampler: every pair of outputs is even over the square, along pixels,
                     },
                     count));
     double level = sidak_level(0.01, p_values.size());
+    for (double p : p_values)
+        CHECK(p > level);
+}
+
+TEST_CASE("Sampler: samples far up, where singles have no odd numbers, are as even and all others",
+          "[sampler]") {
+    const std::uint32_t count = 1 << 18;
+    std::vector<double> p_values;
+    for (const std::uint32_t end : {1u << 25, 1u << 30, (1u << 31) - 1}) {
+        std::set<std::array<std::uint32_t, 4>> seen;
+        for (int a = 0; a < 4; a++)
+            for (int b = a + 1; b < 4; b++)
+                p_values.push_back(grid_p_value(
+                    [&](std::uint32_t n) {
+                        const f32::Random4 r = f32::random4(7, end - 1 - n, 5, 11);
+                        seen.insert({r.x, r.y, r.z, r.w});
+                        return Pair{top(r, a), top(r, b)};
+                    },
+                    count));
+        CHECK(seen.size() == count);
+    }
+    const double level = sidak_level(0.01, p_values.size());
     for (double p : p_values)
         CHECK(p > level);
 }

@@ -111,3 +111,39 @@ TEST_CASE("Work sizes: waves fit the pool, and segments hold them", "[waves]") {
         if (c.lanes > 1) CHECK(s.segment_size % 16 == 0);
     }
 }
+
+TEST_CASE("Work sizes: a pool that there is no room for is halved down to a group a stream",
+          "[waves]") {
+    for (const Case& c : cases) {
+        CAPTURE(c.width, c.height, c.samples, c.lanes);
+        const FilmLayout film =
+            film_layout(scene_of(c.width, c.height, FilterKind::box), plan_aovs(Scene{}));
+        const std::vector<WorkSizes> choices = pool_choices(film, c.samples, c.lanes, c.split);
+        CHECK(choices.front().path_capacity ==
+              work_sizes(film, c.samples, c.lanes, c.split).path_capacity);
+        for (std::size_t i = 1; i < choices.size(); i++) {
+            // The last step may be to what a group leaves.
+            CHECK(choices[i].path_capacity < choices[i - 1].path_capacity);
+            CHECK(choices[i].path_capacity * 3 >= choices[i - 1].path_capacity);
+            CHECK(choices[i].streams == c.split.streams);
+        }
+        CHECK(choices.back().samples_per_wave == std::min(c.samples, FILM_SAMPLES));
+        CHECK(choices.back().path_capacity <= FILM_SAMPLES * BLOCK_PIXELS);
+    }
+}
+
+TEST_CASE("Work sizes: a wave of any size is spread over all segments, and fits", "[waves]") {
+    for (const Case& c : cases) {
+        const WorkSizes s =
+            sizes_of(scene_of(c.width, c.height, FilterKind::box), c.samples, c.lanes, c.split);
+        CAPTURE(c.width, c.height, s.segments, s.segment_size, s.path_capacity);
+        for (int paths = 1; paths <= s.path_capacity; paths++) {
+            const int size = s.used_segment_size(paths);
+            REQUIRE(size <= s.segment_size);
+            REQUIRE(std::int64_t{size} * s.segments >= paths);
+            REQUIRE((size % (c.lanes == 1 ? 1 : 16) == 0 || size == s.segment_size));
+            // No more than a packet in each is left out.
+            REQUIRE((size - (c.lanes == 1 ? 1 : 16)) * s.segments < paths);
+        }
+    }
+}
