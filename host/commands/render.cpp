@@ -10,6 +10,7 @@
 #include "host/commands/render_outputs.h"
 #include "host/commands/render_session.h"
 #include "host/commands/shared_work.h"
+#include "host/commands/thread_limit.h"
 #include "host/error.h"
 #include "host/image/distinct_files.h"
 #include "host/image/output.h"
@@ -19,9 +20,7 @@
 #include "host/stop_signals.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 namespace parhelion {
@@ -36,11 +35,6 @@ void note_lost_layers(const RenderCommand& command, Scene& scene) {
     for (const AovRequest& aov : scene.integrator.aovs)
         names += (names.empty() ? "" : ", ") + aov.name;
     scene.notes.push_back("a .png preview holds no layers; left out: " + names);
-}
-
-/// Must come before the first OpenCL call: the CPU device reads its environment once.
-void limit_threads(int threads) {
-    if (threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
 }
 
 Scene read(const RenderCommand& command, SharedWork& work) {
@@ -116,20 +110,6 @@ std::unique_ptr<FilmFile> film_to_go_on_from(const RenderCommand& command, const
     return film;
 }
 
-FilmHeader header_of(const RenderCommand& command, const Scene& scene, const Session& session,
-                     const RenderKey& key, const RenderReport& report) {
-    FilmHeader header;
-    header.key = key;
-    header.content = session.content();
-    header.blocks = session.blocks();
-    header.samples_per_pixel = scene.sampler.samples_per_pixel;
-    header.part_name = part_name(shard_of(command));
-    header.part = session.all();
-    header.metadata =
-        metadata_of(scene, report, render_digest(key, scene.sampler.samples_per_pixel));
-    return header;
-}
-
 } // namespace
 
 bool is_done(const RenderCommand& command, SharedWork& work) {
@@ -155,7 +135,7 @@ ExitCode render_one(const RenderCommand& command, SharedWork& work) {
     opened.report.load_seconds = load_seconds;
     opened.report.notes = scene.notes;
     opened.report.lenient = command.lenient;
-    const RenderReport begun = opened.report;
+    const FilmHeader header = header_of(command, scene, key, opened);
     Session session(std::move(opened), shard_of(command), progress);
     if (film) {
         session.take_up(*film, film->header().state);
@@ -163,8 +143,7 @@ ExitCode render_one(const RenderCommand& command, SharedWork& work) {
                                   100 * session.share()));
     }
     if (session.all().empty()) progress.note("note: there are no samples for this part");
-    const ExitCode code = render_session(command, work.started, session,
-                                         header_of(command, scene, session, key, begun), *existing);
+    const ExitCode code = render_session(command, work.started, session, header, *existing);
     progress.note("wrote " + command.output);
     return code;
 }
@@ -176,10 +155,7 @@ int run_render(const RenderCommand& command) {
     if (command.trace) return run_trace(frames.only("--trace"), messages);
     end_on_signals();
     check_frames(frames, messages);
-    limit_threads(command.threads);
-    std::optional<tbb::global_control> host_threads;
-    if (command.threads > 0)
-        host_threads.emplace(tbb::global_control::max_allowed_parallelism, command.threads);
+    const ThreadLimit threads(command.threads);
     Progress progress(Progress::mode_of(command.progress, command.quiet));
     SharedWork work{messages, progress, frames.several(), started};
     return static_cast<int>(render_frames(frames, work));

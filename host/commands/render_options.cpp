@@ -1,4 +1,5 @@
 // The options of `parhelion render`, and what they cannot be whatever the scene.
+#include "host/commands/option_number.h"
 #include "host/commands/render.h"
 #include "host/commands/render_domains.h"
 #include "host/error.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace parhelion {
 namespace {
@@ -198,8 +200,10 @@ std::vector<Option> trace_options(RenderCommand& c) {
                     });
 }
 
+constexpr const char* split_group = "How work is split (the image stays the same to the bit)";
+
 std::vector<Option> of_split(std::vector<Option> options) {
-    return in_group("How work is split (the image stays the same to the bit)", std::move(options));
+    return in_group(split_group, std::move(options));
 }
 
 std::vector<Option> pool_options(RenderCommand& c) {
@@ -248,6 +252,17 @@ std::vector<Option> kernel_options(RenderCommand& c) {
           "for scripts), lines or terminal",
           {.words = words_of(progress_names)}}});
     append(options, program_options(c));
+    return options;
+}
+
+std::vector<Option> estimate_options(RenderCommand& c) {
+    const std::set<std::string> others{"--crop",     "--threads",  "--layer-format", "--shard",
+                                       "--shard-by", "--progress", "--quiet",        "--device"};
+    std::vector<Option> options = render_options(c);
+    std::erase_if(options, [&](const Option& option) {
+        return !option.rules.of_samples && option.rules.group != split_group &&
+               !others.contains(option_name(option));
+    });
     return options;
 }
 

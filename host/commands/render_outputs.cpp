@@ -120,6 +120,21 @@ metadata_of(const Scene& scene, const RenderReport& report, const std::string& d
     return metadata;
 }
 
+FilmHeader header_of(const RenderCommand& command, const Scene& scene, const RenderKey& key,
+                     const OpenedRender& opened) {
+    const Shard shard = shard_of(command);
+    FilmHeader header;
+    header.key = key;
+    header.content = opened.content;
+    header.blocks = opened.blocks;
+    header.samples_per_pixel = opened.samples_per_pixel;
+    header.part_name = part_name(shard);
+    header.part = shard_samples(shard, opened.blocks, opened.samples_per_pixel);
+    header.metadata =
+        metadata_of(scene, opened.report, render_digest(key, opened.samples_per_pixel));
+    return header;
+}
+
 std::vector<Misfits> write_picture(const std::string& file, const FilmHeader& header,
                                    const FilmSums& sums, const WriteOptions& options) {
     FilmPicture image(sums, header.content);
