@@ -156,7 +156,7 @@ int run_render(const RenderCommand& command) {
     end_on_signals();
     check_frames(frames, messages);
     const ThreadLimit threads(command.threads);
-    Progress progress(Progress::mode_of(command.progress, command.quiet));
+    Progress progress(messages.mode());
     SharedWork work{messages, progress, frames.several(), started};
     return static_cast<int>(render_frames(frames, work));
 }

@@ -1,10 +1,10 @@
 // The options of `parhelion render`, and what they cannot be whatever the scene.
+#include "host/commands/message_options.h"
 #include "host/commands/option_number.h"
 #include "host/commands/render.h"
 #include "host/commands/render_domains.h"
 #include "host/error.h"
 #include "host/image/output.h"
-#include "host/progress.h"
 #include "kernels/shared/features.h"
 
 #include <fmt/format.h>
@@ -60,11 +60,7 @@ std::vector<Option> image_options(RenderCommand& c) {
          &c.stats_file,
          "Write times, counts and memory as JSON",
          {.kind = ValueKind::file}},
-        {"--log",
-         &c.log_file,
-         "Append to this file what standard error is told (and with --quiet what it would be), a "
-         "line each with its time",
-         {.kind = ValueKind::file}},
+        log_option(c.log_file),
         {"--force", &c.force, "Overwrite files that exist"},
         {"--strict", &c.strict,
          "Exit code 1 if a sample was not finite, or a value of the image is not or does not fit "
@@ -242,15 +238,10 @@ std::vector<Option> program_options(RenderCommand& c) {
 
 std::vector<Option> kernel_options(RenderCommand& c) {
     std::vector<Option> options = light_options(c);
-    append(
-        options,
-        {{"--device", &c.device, "Device by index or part of its name (see `parhelion devices`)"},
-         {"-q,--quiet", &c.quiet, "No progress and notes; warnings and errors are told"},
-         {"--progress",
-          &c.progress,
-          "How progress and messages are told: auto (terminal or lines), json (one object a line, "
-          "for scripts), lines or terminal",
-          {.words = words_of(progress_names)}}});
+    append(options, {{"--device", &c.device,
+                      "Device by index or part of its name (see `parhelion devices`)"},
+                     quiet_option(c.quiet),
+                     progress_option(c.progress)});
     append(options, program_options(c));
     return options;
 }
