@@ -94,6 +94,8 @@ nlohmann::json estimate(const RenderCommand& command, const Scene& scene, double
     OpenedRender opened = open_on_device(scene, device, command.options, progress);
     opened.report.load_seconds = load_seconds;
     const FilmHeader header = header_of(command, scene, render_key(command, scene), opened);
+    const nlohmann::json files{{"picture_bytes", picture_bytes(command, header.content)},
+                               {"checkpoint_most_bytes", most_film_bytes(header)}};
     progress.start("rendering a little");
     const RenderEstimate found =
         estimate_render(*opened.engine, header.part, measured_seconds, progress);
@@ -103,9 +105,7 @@ nlohmann::json estimate(const RenderCommand& command, const Scene& scene, double
             {"part", header.part_name},
             {"time", time_json(opened.report, found)},
             {"memory", memory_json(opened.report, found)},
-            {"files",
-             {{"picture_bytes", picture_bytes(command, header.content)},
-              {"checkpoint_most_bytes", most_film_bytes(header)}}}};
+            {"files", files}};
 }
 
 void add_estimate(const nlohmann::json& estimate, InfoText& text) {

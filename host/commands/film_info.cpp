@@ -60,15 +60,9 @@ nlohmann::json layers_json(const FilmHeader& h) {
 }
 
 nlohmann::json picture_json(const FilmHeader& h) {
-    const Film& film = h.content.film;
-    return {{"width_pixels", film.width},
-            {"height_pixels", film.height},
-            {"crop",
-             {{"x", film.crop_x},
-              {"y", film.crop_y},
-              {"width_pixels", film.crop_width},
-              {"height_pixels", film.crop_height}}},
-            {"layers", layers_json(h)}};
+    nlohmann::json json = film_size_json(h.content.film);
+    json["layers"] = layers_json(h);
+    return json;
 }
 
 nlohmann::json metadata_json(const FilmHeader& h) {
@@ -95,18 +89,6 @@ nlohmann::json counts_json(const FilmState& state) {
             {"rays", report.rays()},
             {"non_finite_samples", report.non_finite_samples},
             {"faults", faults}};
-}
-
-std::string picture_text(const nlohmann::json& info) {
-    const nlohmann::json &picture = info["picture"], &crop = picture["crop"];
-    const auto number = [](const nlohmann::json& n) { return n.get<int>(); };
-    std::string text = fmt::format("{} x {} pixels", number(picture["width_pixels"]),
-                                   number(picture["height_pixels"]));
-    if (crop["width_pixels"] != picture["width_pixels"] ||
-        crop["height_pixels"] != picture["height_pixels"])
-        text += fmt::format(", of which {} x {} at {},{}", number(crop["width_pixels"]),
-                            number(crop["height_pixels"]), number(crop["x"]), number(crop["y"]));
-    return text + fmt::format("; {} spp", number(info["samples_per_pixel"]));
 }
 
 std::string layers_text(const nlohmann::json& layers) {
@@ -186,7 +168,7 @@ std::string film_text(const nlohmann::json& info) {
         const nlohmann::json& value = metadata[name];
         text.add(label, value.is_string() ? value.get<std::string>() : value.dump());
     };
-    text.add("film", picture_text(info));
+    text.add("film", film_size_text(info["picture"], info["samples_per_pixel"].get<int>()));
     text.add("part", part_text(info));
     text.add("samples", samples_text(info));
     text.add("layers", layers_text(info["picture"]["layers"]));

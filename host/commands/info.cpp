@@ -73,7 +73,7 @@ nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
         lights[emitter_names[l.kind]]++;
     return {{"scene", scene.file},
             {"sensors", scene.sensors},
-            {"film", {{"width_pixels", scene.film.width}, {"height_pixels", scene.film.height}}},
+            {"film", film_size_json(scene.film)},
             {"samples_per_pixel", scene.sampler.samples_per_pixel},
             {"frame", to_json(flat.frame)},
             {"shapes", shapes},
@@ -118,12 +118,10 @@ std::string texture_text(const nlohmann::json& t) {
 }
 
 std::string text_of(const nlohmann::json& info) {
-    const nlohmann::json &film = info["film"], &frame = info["frame"], &bvh = info["bvh"];
+    const nlohmann::json &frame = info["frame"], &bvh = info["bvh"];
     InfoText text(info["scene"].get<std::string>());
     const auto add = [&text](const char* label, const std::string& line) { text.add(label, line); };
-    add("film",
-        fmt::format("{} x {} pixels, {} spp", film["width_pixels"].get<int>(),
-                    film["height_pixels"].get<int>(), info["samples_per_pixel"].get<int>()));
+    add("film", film_size_text(info["film"], info["samples_per_pixel"].get<int>()));
     if (info["sensors"].size() > 1)
         add("sensors",
             fmt::format("{}", fmt::join(info["sensors"].get<std::vector<std::string>>(), ", ")));

@@ -4,6 +4,7 @@
 #include "host/safe_text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 
@@ -23,5 +24,13 @@ public:
 private:
     std::string text_;
 };
+
+struct Film;
+
+/// Width and height, and what of it is sampled. The crop is resolved.
+nlohmann::json film_size_json(const Film& film);
+
+/// "512 x 512 pixels, of which 8 x 8 at 2,1, 64 spp".
+std::string film_size_text(const nlohmann::json& size, int samples_per_pixel);
 
 } // namespace parhelion

@@ -103,6 +103,7 @@ std::vector<SampleRange> SpreadPieces::next(std::size_t most) {
 
 RenderEstimate estimate_of(const std::vector<WaveTime>& waves, std::int64_t samples) {
     RenderEstimate estimate;
+    if (samples == 0) estimate.rendered_share = 1; // all of nothing
     if (waves.empty() || samples == 0) return estimate;
     const WaveTime& last = waves.back();
     estimate.seconds = estimate.rendered_seconds = last.seconds;

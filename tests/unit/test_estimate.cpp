@@ -103,6 +103,7 @@ TEST_CASE("Estimate: what waves took, for the rest of them", "[estimate]") {
     SECTION("no wave, no samples") {
         CHECK(estimate_of({}, 100).seconds == 0);
         CHECK(estimate_of({}, 0).seconds == 0);
+        CHECK(estimate_of({}, 0).rendered_share == 1);
     }
     SECTION("all of it") {
         const RenderEstimate e = estimate_of({{1.0, 10}, {1.5, 20}}, 20);

@@ -97,7 +97,7 @@ TEST_CASE("Film info: picture, layers, key and counts", "[info]") {
     CHECK(info["counts"]["faults"].size() == 1);
     CHECK(info["metadata"]["seed"] == 7);
     const std::string text = film_text(info);
-    for (const char* told : {"20 x 10 pixels, of which 8 x 8 at 2,1; 64 spp", "the whole render",
+    for (const char* told : {"20 x 10 pixels, of which 8 x 8 at 2,1, 64 spp", "the whole render",
                              "finished: all", "image (R G B), light.key (R G B)", "--max-depth 3",
                              "a device", "12345678901 paths", "5 of bsdf in", "  note       two\n"})
         CHECK_THAT(text, Catch::Contains(told));
