@@ -254,6 +254,10 @@ std::vector<Option> estimate_options(RenderCommand& c) {
         return !option.rules.of_samples && option.rules.group != split_group &&
                !others.contains(option_name(option));
     });
+    for (Option& option : options) {
+        if (option.rules.group != split_group) option.rules.group.clear();
+        if (option_name(option) == "--shard") option.help = "Of part K of N, K/N, alone";
+    }
     return options;
 }
 
