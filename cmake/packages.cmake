@@ -12,8 +12,8 @@ install(FILES docs/accuracy.md docs/farm.md docs/frames.md docs/parameters.md DE
 install(DIRECTORY docs/farm DESTINATION share/doc/parhelion/docs USE_SOURCE_PERMISSIONS) # scripts, to be run
 install(DIRECTORY docs/gallery docs/licences DESTINATION share/doc/parhelion/docs)
 
-# The manual and what shells complete is what the program says, asked when it is installed.
-install(CODE "set(PROGRAM \"$<TARGET_FILE:parhelion>\")\nset(MADE_FOLDER \"${PROJECT_BINARY_DIR}/generated/made\")")
+# The manuals and what shells complete is what the programs say, asked when they are installed.
+install(CODE "set(PROGRAM \"$<TARGET_FILE:parhelion>\")\nset(STRESS_PROGRAM \"$<TARGET_FILE:parhelion-stress>\")\nset(MADE_FOLDER \"${PROJECT_BINARY_DIR}/generated/made\")")
 install(SCRIPT cmake/install_made.cmake)
 
 set(CPACK_PACKAGE_NAME parhelion)

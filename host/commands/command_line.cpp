@@ -152,7 +152,8 @@ bool takes_number(const Option& option) {
 }
 
 CommandLineReader::CommandLineReader(const CommandLine& command_line)
-    : command_line_(command_line), app_(std::make_unique<App>(command_line.summary, "parhelion")) {
+    : command_line_(command_line),
+      app_(std::make_unique<App>(command_line.summary, command_line.program)) {
     app_->require_subcommand(1);
     app_->set_version_flag("--version", command_line.version);
     app_->footer(command_line.footer);

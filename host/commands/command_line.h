@@ -59,6 +59,7 @@ struct Subcommand {
 };
 
 struct CommandLine {
+    std::string program = "parhelion"; ///< what it is started as
     std::string summary{}, footer{};
     std::string example{};                  ///< of a whole command line
     std::function<std::string()> version{}; ///< what --version prints

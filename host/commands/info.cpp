@@ -1,9 +1,15 @@
-// `parhelion info`: what is in a scene, and what its kernels will have.
+// `parhelion info`: what is in a scene, and what its kernels will have; what is on a film.
 #include "host/commands/info.h"
 
+#include "host/clock.h"
+#include "host/commands/command_text.h"
+#include "host/commands/estimate_info.h"
+#include "host/commands/film_info.h"
+#include "host/commands/info_text.h"
+#include "host/commands/option_number.h"
 #include "host/commands/render.h"
-#include "host/commands/render_domains.h"
 #include "host/commands/scene_check.h"
+#include "host/commands/thread_limit.h"
 #include "host/error.h"
 #include "host/flatten/device_scene.h"
 #include "host/flatten/kind_names.h"
@@ -25,7 +31,7 @@ namespace {
 
 struct InfoCommand {
     RenderCommand image; ///< what of it decides which kernels there are
-    bool json = false, check = false;
+    bool json = false, check = false, estimate = false;
 };
 
 /// Of textures that are images: what their files hold.
@@ -67,7 +73,7 @@ nlohmann::json describe(const Scene& scene, const DeviceScene& flat) {
         lights[emitter_names[l.kind]]++;
     return {{"scene", scene.file},
             {"sensors", scene.sensors},
-            {"film", {{"width_pixels", scene.film.width}, {"height_pixels", scene.film.height}}},
+            {"film", film_size_json(scene.film)},
             {"samples_per_pixel", scene.sampler.samples_per_pixel},
             {"frame", to_json(flat.frame)},
             {"shapes", shapes},
@@ -112,14 +118,10 @@ std::string texture_text(const nlohmann::json& t) {
 }
 
 std::string text_of(const nlohmann::json& info) {
-    const nlohmann::json &film = info["film"], &frame = info["frame"], &bvh = info["bvh"];
-    std::string text = as_one_line(info["scene"].get<std::string>()) + '\n';
-    const auto add = [&text](const char* label, const std::string& line) {
-        text += fmt::format("  {:<10} {}\n", label, as_one_line(line));
-    };
-    add("film",
-        fmt::format("{} x {} pixels, {} spp", film["width_pixels"].get<int>(),
-                    film["height_pixels"].get<int>(), info["samples_per_pixel"].get<int>()));
+    const nlohmann::json &frame = info["frame"], &bvh = info["bvh"];
+    InfoText text(info["scene"].get<std::string>());
+    const auto add = [&text](const char* label, const std::string& line) { text.add(label, line); };
+    add("film", film_size_text(info["film"], info["samples_per_pixel"].get<int>()));
     if (info["sensors"].size() > 1)
         add("sensors",
             fmt::format("{}", fmt::join(info["sensors"].get<std::vector<std::string>>(), ", ")));
@@ -139,11 +141,30 @@ std::string text_of(const nlohmann::json& info) {
                            bvh["depth"].get<int>(), bvh["sah_cost"].get<double>()));
     add("memory",
         fmt::format("{:.1f} MB on the device", info["device_scene_bytes"].get<double>() / 1e6));
+    if (info.contains("estimate")) add_estimate(info["estimate"], text);
     add("kernels", joined(info["kernel_features"]));
     add("left out", joined(info["skipped_features"]));
     for (const auto& note : info["notes"])
         add("note", note.get<std::string>());
-    return text;
+    return text.text();
+}
+
+std::vector<Option> info_options(InfoCommand& c) {
+    std::vector<Option> options{
+        {"scene",
+         &c.image.scene_file,
+         "Scene file (Mitsuba 3 XML), or a film that --checkpoint or --shard wrote",
+         {.required = true, .kind = ValueKind::file}},
+        {"--check", &c.check,
+         "Say of everything in the file whether it is rendered as written, approximately (and "
+         "how) or refused (and what --lenient makes of it): exit code 0, 1 or 2"},
+        {"--estimate", &c.estimate,
+         "Begin the render, for two seconds, and say how long all of it would take and how much "
+         "memory; takes what `render` takes beside"},
+        {"--json", &c.json, "One JSON object"}};
+    for (Option& option : estimate_options(c.image))
+        options.push_back(std::move(option));
+    return options;
 }
 
 int run_check(const InfoCommand& command) {
@@ -152,13 +173,50 @@ int run_check(const InfoCommand& command) {
     return static_cast<int>(check_exit_code(check));
 }
 
-int run_info(const InfoCommand& command) {
+/// Of a film nothing else can be asked.
+int run_film_info(InfoCommand& command) {
+    for (const Option& option : info_options(command))
+        if (const std::string name = option_name(option);
+            name != "--json" && name != "--quiet" && !given_option(option).empty())
+            throw InputError(fmt::format("{}: is for scenes; {} is a film of samples", name,
+                                         command.image.scene_file));
+    const nlohmann::json info = describe_film(FilmFile(command.image.scene_file));
+    print(command.json ? json_text(info) : film_text(info));
+    return static_cast<int>(ExitCode::ok);
+}
+
+/// Refuses what cannot be before the scene is read.
+void check_info(const InfoCommand& command) {
+    if (command.check && command.estimate)
+        throw InputError("--estimate: --check renders nothing (accepted: one of the two)");
+    check_split(command.image.options);
+    shard_of(command.image);
+}
+
+int run_scene_info(const InfoCommand& command) {
+    const auto start = Clock::now();
+    const Progress::Mode mode = Progress::mode_of(command.image.progress, command.image.quiet);
+    tell_messages_as(mode == Progress::Mode::json ? MessageForm::json : MessageForm::text);
+    Progress progress(command.estimate ? mode : Progress::Mode::quiet);
+    check_info(command);
     if (command.check) return run_check(command);
+    const ThreadLimit threads(command.image.threads);
+    progress.start("loading", command.image.scene_file);
     Scene scene = load_scene(command.image.scene_file, load_options(command.image));
     apply_overrides(command.image, scene);
+    progress.finish("");
+    // First: what describes the scene has no say in what a render takes.
+    nlohmann::json found;
+    if (command.estimate) found = estimate(command.image, scene, seconds_since(start), progress);
     nlohmann::json info = describe(scene, make_device_scene(scene));
+    if (command.estimate) info["estimate"] = found;
     print(command.json ? json_text(info) : text_of(info));
     return static_cast<int>(ExitCode::ok);
+}
+
+int run_info(InfoCommand& command) {
+    return is_to_be_film(command.image.scene_file) ? run_film_info(command)
+                                                   : run_scene_info(command);
 }
 
 } // namespace
@@ -167,32 +225,19 @@ Subcommand info_subcommand() {
     auto c = std::make_shared<InfoCommand>();
     return {
         .name = "info",
-        .summary = "Say what is in a scene and what its kernels will have",
+        .summary = "Say what is in a scene, what its kernels will have and what it will take, or "
+                   "what is on a "
+                   "film",
         .examples =
             "Examples:\n"
             "  parhelion info scenes/cornell-box/scene.xml --json | jq .kernel_features\n"
             "  parhelion info theirs.xml --check   # what of it is exact, approximated, refused; "
-            "exit code 0, 1, 2",
-        .options =
-            {{"scene",
-              &c->image.scene_file,
-              "Scene file (Mitsuba 3 XML)",
-              {.required = true, .kind = ValueKind::file}},
-             {"-D,--define", &c->image.definitions,
-              "name=value for the scene's $name (repeat for more)"},
-             {"--sensor", &c->image.sensor, sensor_help, {.domain = sensor_domain}},
-             {"--integrator",
-              &c->image.integrator,
-              integrator_help,
-              {.words = {integrator_names.begin(), integrator_names.end()}}},
-             {"!--no-energy-compensation", &c->image.energy_compensation, energy_compensation_help},
-             {"--allow-outside", &c->image.allow_outside,
-              "Let the scene name files outside its own folder"},
-             {"--lenient", &c->image.lenient, lenient_help},
-             {"--check", &c->check,
-              "Say of everything in the file whether it is rendered as written, approximately (and "
-              "how) or refused (and what --lenient makes of it): exit code 0, 1 or 2"},
-             {"--json", &c->json, "One JSON object"}},
+            "exit code 0, 1, 2\n"
+            "  parhelion info scene.xml --estimate --spp 4096 --size 1920x1080   # time and "
+            "memory, "
+            "beforehand\n"
+            "  parhelion info long.film   # a checkpoint, or a part of a render: what is on it",
+        .options = info_options(*c),
         .run = [c] { return run_info(*c); },
     };
 }

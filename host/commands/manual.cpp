@@ -1,4 +1,4 @@
-// `parhelion man`: the manual page, made from the option tables.
+// `parhelion man`, `parhelion-stress man`: the manual page, made from the option tables.
 #include "host/commands/manual.h"
 
 #include "host/commands/option_text.h"
@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace parhelion {
 namespace {
@@ -67,8 +68,8 @@ std::string text_of(const Option& option) {
 }
 
 /// "parhelion render scene [OPTIONS]".
-std::string synopsis(const Subcommand& subcommand) {
-    std::string text = fmt::format("\\fBparhelion {}\\fR", roff(subcommand.name));
+std::string synopsis(const std::string& program, const Subcommand& subcommand) {
+    std::string text = fmt::format("\\fB{} {}\\fR", roff(program), roff(subcommand.name));
     for (const Option& option : subcommand.options)
         if (is_positional(option))
             text +=
@@ -89,9 +90,9 @@ std::string examples_of(const Subcommand& subcommand) {
     return text;
 }
 
-std::string section_of(const Subcommand& subcommand) {
+std::string section_of(const std::string& program, const Subcommand& subcommand) {
     std::string text = fmt::format(".SS {}\n{}.\n.PP\n{}\n", roff(subcommand.name),
-                                   roff(subcommand.summary), synopsis(subcommand));
+                                   roff(subcommand.summary), synopsis(program, subcommand));
     for (const Option& option : subcommand.options)
         text += text_of(option);
     return text + examples_of(subcommand);
@@ -108,26 +109,32 @@ std::string exit_codes_section() {
 } // namespace
 
 std::string manual_page(const CommandLine& command_line) {
+    const std::string& program = command_line.program;
+    std::string title = program;
+    std::transform(title.begin(), title.end(), title.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     const std::size_t colon = command_line.summary.find(": ");
     std::string page =
-        fmt::format(".\\\" Made by `parhelion man`.\n"
-                    ".TH PARHELION 1 \"\" \"Parhelion {}\" \"User Commands\"\n"
-                    ".SH NAME\nparhelion \\- {}\n.SH SYNOPSIS\n",
-                    version_number,
+        fmt::format(".\\\" Made by `{} man`.\n"
+                    ".TH {} 1 \"\" \"Parhelion {}\" \"User Commands\"\n"
+                    ".SH NAME\n{} \\- {}\n.SH SYNOPSIS\n",
+                    program, roff(title), version_number, roff(program),
                     roff(command_line.summary.substr(colon == std::string::npos ? 0 : colon + 2)));
     for (const Subcommand& subcommand : command_line.subcommands)
-        page += synopsis(subcommand) + "\n.br\n";
-    page += "\\fBparhelion\\fR \\fB\\-\\-help\\fR | \\fB\\-\\-version\\fR\n.SH SUBCOMMANDS\n";
+        page += synopsis(program, subcommand) + "\n.br\n";
+    page += fmt::format("\\fB{}\\fR \\fB\\-\\-help\\fR | \\fB\\-\\-version\\fR\n.SH SUBCOMMANDS\n",
+                        roff(program));
     for (const Subcommand& subcommand : command_line.subcommands)
-        page += section_of(subcommand);
+        page += section_of(program, subcommand);
     return page + exit_codes_section();
 }
 
-Subcommand manual_subcommand(const std::function<CommandLine()>& command_line) {
+Subcommand manual_subcommand(const std::function<CommandLine()>& command_line,
+                             const std::string& program) {
     return {
         .name = "man",
         .summary = "Print the manual page of this program",
-        .examples = "Example:\n  parhelion man | man -l -",
+        .examples = fmt::format("Example:\n  {} man | man -l -", program),
         .run =
             [command_line] {
                 print(manual_page(command_line()));

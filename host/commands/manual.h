@@ -1,4 +1,4 @@
-// `parhelion man`: the manual page, made from the option tables.
+// `parhelion man`, `parhelion-stress man`: the manual page, made from the option tables.
 #pragma once
 
 #include "host/commands/command_line.h"
@@ -11,6 +11,8 @@ namespace parhelion {
 std::string manual_page(const CommandLine& command_line);
 
 /// `command_line` gives the whole one when it is run: the subcommand is itself a part of it.
-Subcommand manual_subcommand(const std::function<CommandLine()>& command_line);
+/// `program`: the one that it is of.
+Subcommand manual_subcommand(const std::function<CommandLine()>& command_line,
+                             const std::string& program = CommandLine{}.program);
 
 } // namespace parhelion

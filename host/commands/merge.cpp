@@ -1,7 +1,9 @@
 // `parhelion merge`: films of parts of a render to the picture of the whole.
 #include "host/commands/merge.h"
 
+#include "host/commands/message_options.h"
 #include "host/commands/render_domains.h"
+#include "host/commands/render_messages.h"
 #include "host/commands/render_outputs.h"
 #include "host/error.h"
 #include "host/film/film_parts.h"
@@ -12,9 +14,24 @@
 #include <sys/resource.h>
 
 #include <memory>
+#include <mutex>
 
 namespace parhelion {
 namespace {
+
+std::vector<UsedFile> inputs_of(const MergeCommand& command) {
+    std::vector<UsedFile> inputs;
+    inputs.reserve(command.parts.size());
+    for (const std::string& part : command.parts)
+        inputs.push_back({"a part,", part});
+    return inputs;
+}
+
+RenderMessages messages_of(const MergeCommand& command) {
+    std::vector<UsedFile> others = inputs_of(command);
+    others.push_back({"--output", command.output});
+    return {command.progress, command.quiet, command.log_file, others};
+}
 
 void check_files(const MergeCommand& command) {
     if (is_film_file(command.output))
@@ -25,10 +42,7 @@ void check_files(const MergeCommand& command) {
         (is_film_file(command.output) || image_format(command.output) != ImageFormat::png))
         throw InputError("--exposure: is for .png previews; an .exr holds linear values");
     check_picture_form(command.form, command.output);
-    std::vector<UsedFile> inputs;
-    for (const std::string& part : command.parts)
-        inputs.push_back({"a part,", part});
-    check_distinct({{"--output", command.output}}, inputs);
+    check_distinct({{"--output", command.output}}, inputs_of(command));
 }
 
 /// Each part stays open: as many as the system lets a process have.
@@ -50,6 +64,37 @@ std::deque<FilmFile> opened(const MergeCommand& command, Progress& progress) {
     return parts;
 }
 
+/// Sums that tell how far whoever asks for them row by row, from the top, has come. Several threads
+/// may ask.
+class ToldSums : public FilmSums {
+public:
+    ToldSums(const FilmSums& sums, int rows, Progress& progress)
+        : sums_(sums), rows_(rows), progress_(progress) {}
+
+    void add_row(int channel, int y, SumRow& row) const override {
+        sums_.add_row(channel, y, row);
+        tell(y);
+    }
+    void add_coverage(int y, ShapeWeights& row) const override {
+        sums_.add_coverage(y, row);
+        tell(y);
+    }
+
+private:
+    void tell(int y) const {
+        const std::scoped_lock lock(telling_);
+        if (y < next_) return;
+        next_ = y + 1;
+        progress_.update(static_cast<double>(next_) / rows_);
+    }
+
+    const FilmSums& sums_;
+    int rows_;
+    Progress& progress_;
+    mutable std::mutex telling_;
+    mutable int next_ = 0; ///< behind the lowest row that was asked for
+};
+
 void write_merged(const MergeCommand& command, const FilmHeader& header, const FilmSums& sums) {
     if (is_film_file(command.output)) {
         write_film(command.output, header, sums, existing_files(command.force));
@@ -63,10 +108,11 @@ void write_merged(const MergeCommand& command, const FilmHeader& header, const F
 } // namespace
 
 int run_merge(const MergeCommand& command) {
+    const RenderMessages messages = messages_of(command);
     check_files(command);
     allow_many_files();
-    Progress progress = Progress::standard(command.quiet);
-    progress.start("opening", fmt::format("{} film{}", command.parts.size(),
+    Progress progress(messages.mode());
+    progress.start("reading", fmt::format("{} film{}", command.parts.size(),
                                           command.parts.size() == 1 ? "" : "s"));
     const std::deque<FilmFile> parts = opened(command, progress);
     const FilmHeader header = added_header(parts);
@@ -79,8 +125,10 @@ int run_merge(const MergeCommand& command) {
     films.reserve(parts.size());
     for (const FilmFile& part : parts)
         films.push_back(&part);
-    progress.start("merging");
-    write_merged(command, header, AddedFilms(films));
+    // Rows are added up when they are written.
+    progress.start("adding and writing", command.output);
+    const AddedFilms added(films);
+    write_merged(command, header, ToldSums(added, header.content.film.crop_height, progress));
     progress.finish("");
     progress.note("wrote " + command.output);
     return static_cast<int>(ExitCode::ok);
@@ -113,7 +161,9 @@ Subcommand merge_subcommand() {
                  "Stops of exposure for .png",
                  {.domain = exposure_domain}},
                 {"--force", &c->force, "Overwrite files that exist"},
-                {"-q,--quiet", &c->quiet, "No progress and notes; warnings and errors are told"},
+                log_option(c->log_file),
+                quiet_option(c->quiet),
+                progress_option(c->progress),
             },
         .run = [c] { return run_merge(*c); },
     };

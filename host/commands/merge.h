@@ -12,7 +12,7 @@ namespace parhelion {
 
 struct MergeCommand {
     std::vector<std::string> parts;
-    std::string output = "out.exr";
+    std::string output = "out.exr", log_file, progress = "auto";
     std::optional<double> exposure;
     PictureForm form;
     bool partial = false, force = false, quiet = false;

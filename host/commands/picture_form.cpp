@@ -13,7 +13,6 @@
 namespace parhelion {
 namespace {
 
-constexpr const char* main_layer = "image"; ///< what users call the one without a name
 constexpr const char* every_layer = "all";
 constexpr std::array component_names{std::pair{"half", ComponentFormat::float16},
                                      std::pair{"float", ComponentFormat::float32}};
@@ -72,7 +71,7 @@ std::vector<PictureLayer> layers_of(const FilmContent& content) {
 const PictureLayer& layer_called(const std::string& name, const std::vector<PictureLayer>& layers) {
     std::vector<std::string> names;
     for (const PictureLayer& layer : layers) {
-        names.push_back(layer.name.empty() ? main_layer : layer.name);
+        names.push_back(layer.name.empty() ? main_layer_name : layer.name);
         if (names.back() == name) return layer;
     }
     throw InputError(fmt::format("--layer-format: the picture has no layer '{}'; there are {}, and "

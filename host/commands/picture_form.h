@@ -19,6 +19,9 @@ struct PictureForm {
     bool asked() const { return compression || !layer_formats.empty(); }
 };
 
+/// What users call the layer without a name.
+inline constexpr const char* main_layer_name = "image";
+
 /// Whether a name is that of a film, by its extension.
 bool is_film_file(const std::string& file);
 

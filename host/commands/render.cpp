@@ -4,14 +4,14 @@
 #include "host/clock.h"
 #include "host/commands/byte_size.h"
 #include "host/commands/cache_help.h"
-#include "host/commands/compile.h"
 #include "host/commands/frame_checks.h"
-#include "host/commands/machine.h"
+#include "host/commands/render_device_options.h"
 #include "host/commands/render_frames.h"
 #include "host/commands/render_key.h"
 #include "host/commands/render_outputs.h"
 #include "host/commands/render_session.h"
 #include "host/commands/shared_work.h"
+#include "host/commands/thread_limit.h"
 #include "host/error.h"
 #include "host/image/distinct_files.h"
 #include "host/image/output.h"
@@ -22,9 +22,7 @@
 #include "host/stop_signals.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 namespace parhelion {
@@ -39,11 +37,6 @@ void note_lost_layers(const RenderCommand& command, Scene& scene) {
     for (const AovRequest& aov : scene.integrator.aovs)
         names += (names.empty() ? "" : ", ") + aov.name;
     scene.notes.push_back("a .png preview holds no layers; left out: " + names);
-}
-
-/// Must come before the first OpenCL call: the CPU device reads its environment once.
-void limit_threads(int threads) {
-    if (threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
 }
 
 /// What the next render may want takes memory of this one.
@@ -93,21 +86,10 @@ std::optional<Existing> existing_of(const RenderCommand& command, const Scene& s
 
 RenderDevice& device_of(const RenderCommand& command, SharedWork& work) {
     if (!work.device) {
-        work.device = &open_to_the_end(choose_device(command.device));
-        work.device->saves_memory = command.memory.has_value();
-        if (command.memory || several_threads())
-            work.device->compile_beside = compile_in_own_process(work.device->device);
+        work.device = &open_device_of(command);
         work.device->keeps_scenes = work.several;
     }
     return *work.device;
-}
-
-RenderOptions options_of(const RenderCommand& command) {
-    RenderOptions options = command.options;
-    if (command.memory) options.memory = parse_byte_size("--memory", *command.memory);
-    options.group_memory = cgroup_limits().memory_bytes.value_or(0);
-    options.scratch = command.scratch.empty() ? folder_of_output(command.output) : command.scratch;
-    return options;
 }
 
 OpenedRender open_where_asked(const RenderCommand& command, const Scene& scene, SharedWork& work) {
@@ -140,20 +122,6 @@ std::unique_ptr<FilmFile> film_to_go_on_from(const RenderCommand& command, const
     return film;
 }
 
-FilmHeader header_of(const RenderCommand& command, const Scene& scene, const Session& session,
-                     const RenderKey& key, const RenderReport& report) {
-    FilmHeader header;
-    header.key = key;
-    header.content = session.content();
-    header.blocks = session.blocks();
-    header.samples_per_pixel = scene.sampler.samples_per_pixel;
-    header.part_name = part_name(shard_of(command));
-    header.part = session.all();
-    header.metadata =
-        metadata_of(scene, report, render_digest(key, scene.sampler.samples_per_pixel));
-    return header;
-}
-
 } // namespace
 
 bool is_done(const RenderCommand& command, SharedWork& work) {
@@ -179,7 +147,7 @@ ExitCode render_one(const RenderCommand& command, SharedWork& work) {
     opened.report.load_seconds = load_seconds;
     opened.report.notes = scene.notes;
     opened.report.lenient = command.lenient;
-    const RenderReport begun = opened.report;
+    const FilmHeader header = header_of(command, scene, key, opened);
     Session session(std::move(opened), shard_of(command), progress);
     if (film) {
         session.take_up(*film, film->header().state);
@@ -187,8 +155,7 @@ ExitCode render_one(const RenderCommand& command, SharedWork& work) {
                                   100 * session.share()));
     }
     if (session.all().empty()) progress.note("note: there are no samples for this part");
-    const ExitCode code = render_session(command, work.started, session,
-                                         header_of(command, scene, session, key, begun), *existing);
+    const ExitCode code = render_session(command, work.started, session, header, *existing);
     progress.note("wrote " + command.output);
     return code;
 }
@@ -200,11 +167,8 @@ int run_render(const RenderCommand& command) {
     if (command.trace) return run_trace(frames.only("--trace"), messages);
     end_on_signals();
     check_frames(frames, messages);
-    limit_threads(command.threads);
-    std::optional<tbb::global_control> host_threads;
-    if (command.threads > 0)
-        host_threads.emplace(tbb::global_control::max_allowed_parallelism, command.threads);
-    Progress progress(Progress::mode_of(command.progress, command.quiet));
+    const ThreadLimit threads(command.threads);
+    Progress progress(messages.mode());
     SharedWork work{messages, progress, frames.several(), started};
     return static_cast<int>(render_frames(frames, work));
 }

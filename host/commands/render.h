@@ -107,6 +107,9 @@ std::vector<Option> frame_options(RenderCommand& command);
 /// Those of them that have a say in which kernels an image needs.
 std::vector<Option> kernel_options(RenderCommand& command);
 
+/// Those of them that have a say in how long a render takes and how much memory.
+std::vector<Option> estimate_options(RenderCommand& command);
+
 /// Throws InputError for what cannot be, whatever the scene and the files there are.
 void check_command(const RenderCommand& command);
 

@@ -63,9 +63,6 @@ void check_command(const RenderCommand& command) {
         throw InputError("--exposure: is for .png previews; an .exr holds linear values");
     if (!command.aovs.empty() && png)
         throw InputError("--aov: a .png preview holds no layers; write an .exr");
-    if (command.skip_existing && png)
-        throw InputError("--skip-existing: a .png does not say which render it is of (accepted: an "
-                         ".exr, a .film)");
     if (!command.cryptomatte.empty() && png)
         throw InputError("--cryptomatte: a .png preview holds no layers; write an .exr");
     if ((!command.light_groups.empty() || command.group_by_light) && png)

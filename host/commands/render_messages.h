@@ -1,7 +1,8 @@
-// Where a render tells what it has to say: --progress, --quiet, --log.
+// Where a render, or a merge, tells what it has to say: --progress, --quiet, --log.
 #pragma once
 
 #include "host/commands/render.h"
+#include "host/progress.h"
 
 namespace parhelion {
 
@@ -11,6 +12,12 @@ class RenderMessages {
 public:
     /// Throws InputError for a log that cannot be written, or is an output or the scene.
     explicit RenderMessages(const RenderCommand& command);
+    /// The same, with what the log must not be.
+    RenderMessages(const std::string& progress, bool quiet, const std::string& log_file,
+                   const std::vector<UsedFile>& others);
+
+    /// What --progress and --quiet come to.
+    Progress::Mode mode() const { return mode_; }
 
     /// The same, with which a scene that names the log is refused; no line is added to it then.
     LoadOptions guarded(LoadOptions options) const;
@@ -19,6 +26,7 @@ public:
     void check_distinct_from(const std::vector<UsedFile>& files) const;
 
 private:
+    Progress::Mode mode_;
     std::string log_file_;
 };
 

@@ -1,9 +1,10 @@
 // The options of `parhelion render`, and what they cannot be whatever the scene.
+#include "host/commands/message_options.h"
+#include "host/commands/option_number.h"
 #include "host/commands/render.h"
 #include "host/commands/render_domains.h"
 #include "host/error.h"
 #include "host/image/output.h"
-#include "host/progress.h"
 #include "kernels/shared/features.h"
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace parhelion {
 namespace {
@@ -58,11 +60,7 @@ std::vector<Option> image_options(RenderCommand& c) {
          &c.stats_file,
          "Write times, counts and memory as JSON",
          {.kind = ValueKind::file}},
-        {"--log",
-         &c.log_file,
-         "Append to this file what standard error is told (and with --quiet what it would be), a "
-         "line each with its time",
-         {.kind = ValueKind::file}},
+        log_option(c.log_file),
         {"--force", &c.force, "Overwrite files that exist"},
         {"--strict", &c.strict,
          "Exit code 1 if a sample was not finite, or a value of the image is not or does not fit "
@@ -212,8 +210,10 @@ std::vector<Option> trace_options(RenderCommand& c) {
                     });
 }
 
+constexpr const char* split_group = "How work is split (the image stays the same to the bit)";
+
 std::vector<Option> of_split(std::vector<Option> options) {
-    return in_group("How work is split (the image stays the same to the bit)", std::move(options));
+    return in_group(split_group, std::move(options));
 }
 
 std::vector<Option> pool_options(RenderCommand& c) {
@@ -252,16 +252,27 @@ std::vector<Option> program_options(RenderCommand& c) {
 
 std::vector<Option> kernel_options(RenderCommand& c) {
     std::vector<Option> options = light_options(c);
-    append(
-        options,
-        {{"--device", &c.device, "Device by index or part of its name (see `parhelion devices`)"},
-         {"-q,--quiet", &c.quiet, "No progress and notes; warnings and errors are told"},
-         {"--progress",
-          &c.progress,
-          "How progress and messages are told: auto (terminal or lines), json (one object a line, "
-          "for scripts), lines or terminal",
-          {.words = words_of(progress_names)}}});
+    append(options, {{"--device", &c.device,
+                      "Device by index or part of its name (see `parhelion devices`)"},
+                     quiet_option(c.quiet),
+                     progress_option(c.progress)});
     append(options, program_options(c));
+    return options;
+}
+
+std::vector<Option> estimate_options(RenderCommand& c) {
+    const std::set<std::string> others{"--memory",       "--scratch", "--crop",     "--threads",
+                                       "--layer-format", "--shard",   "--shard-by", "--progress",
+                                       "--quiet",        "--device"};
+    std::vector<Option> options = render_options(c);
+    std::erase_if(options, [&](const Option& option) {
+        return !option.rules.of_samples && option.rules.group != split_group &&
+               !others.contains(option_name(option));
+    });
+    for (Option& option : options) {
+        if (option.rules.group != split_group) option.rules.group.clear();
+        if (option_name(option) == "--shard") option.help = "Of part K of N, K/N, alone";
+    }
     return options;
 }
 

@@ -6,6 +6,7 @@
 #include "host/commands/render_key.h"
 #include "host/error.h"
 #include "host/film/film_image.h"
+#include "host/image/png_file.h"
 #include "host/streams.h"
 #include "parhelion_version.h"
 
@@ -20,6 +21,9 @@ namespace {
 // Attributes of a picture.
 constexpr const char* digest_attribute = "render";
 constexpr const char* unfinished_attribute = "unfinished";
+constexpr const char* exposure_attribute = "exposure"; // of previews, whose values depend on it
+
+std::string exposure_text(double stops) { return fmt::format("{}", stops); }
 
 bool exists(const std::string& file) {
     std::error_code error;
@@ -37,18 +41,16 @@ void check_film_output(const std::string& file, bool force) {
 
 enum class Left { other, unfinished, whole };
 
-/// What the output that is there is to the render of that digest: not whole where it is not as
-/// `form` says.
-Left left_by(const RenderCommand& command, const std::string& digest, const ExrOptions& form) {
-    const std::string& file = command.output;
-    if (!writes_film(command)) {
-        if (exr_attribute(file, digest_attribute) != digest) return Left::other;
-        const bool whole =
-            exr_attribute(file, unfinished_attribute).empty() && is_written_as(file, form);
-        return whole ? Left::whole : Left::unfinished;
-    }
+/// `picture_form`: whether it is written as asked for.
+Left left_by_picture(const std::string& its_digest, const std::string& digest,
+                     const std::string& unfinished, bool picture_form) {
+    if (its_digest != digest) return Left::other;
+    return unfinished.empty() && picture_form ? Left::whole : Left::unfinished;
+}
+
+Left left_by_film(const RenderCommand& command, const std::string& digest) {
     try {
-        const FilmFile left(file);
+        const FilmFile left(command.output);
         const FilmHeader& header = left.header();
         if (render_digest(header.key, header.samples_per_pixel) != digest ||
             header.part_name != part_name(shard_of(command)))
@@ -57,6 +59,20 @@ Left left_by(const RenderCommand& command, const std::string& digest, const ExrO
     } catch (const InputError&) {
         return Left::other;
     }
+}
+
+/// What the output that is there is to the render of that digest: not whole where it is not as
+/// `form`, or the exposure, says.
+Left left_by(const RenderCommand& command, const std::string& digest, const ExrOptions& form) {
+    const std::string& file = command.output;
+    if (writes_film(command)) return left_by_film(command, digest);
+    if (image_format(file) == ImageFormat::png)
+        return left_by_picture(png_attribute(file, digest_attribute), digest,
+                               png_attribute(file, unfinished_attribute),
+                               png_attribute(file, exposure_attribute) ==
+                                   exposure_text(command.exposure.value_or(0.0)));
+    return left_by_picture(exr_attribute(file, digest_attribute), digest,
+                           exr_attribute(file, unfinished_attribute), is_written_as(file, form));
 }
 
 /// Of a film whose samples are not all there: that, for whoever finds the picture.
@@ -121,12 +137,29 @@ metadata_of(const Scene& scene, const RenderReport& report, const std::string& d
     return metadata;
 }
 
+FilmHeader header_of(const RenderCommand& command, const Scene& scene, const RenderKey& key,
+                     const OpenedRender& opened) {
+    const Shard shard = shard_of(command);
+    FilmHeader header;
+    header.key = key;
+    header.content = opened.content;
+    header.blocks = opened.blocks;
+    header.samples_per_pixel = opened.samples_per_pixel;
+    header.part_name = part_name(shard);
+    header.part = shard_samples(shard, opened.blocks, opened.samples_per_pixel);
+    header.metadata =
+        metadata_of(scene, opened.report, render_digest(key, opened.samples_per_pixel));
+    return header;
+}
+
 std::vector<Misfits> write_picture(const std::string& file, const FilmHeader& header,
                                    const FilmSums& sums, const WriteOptions& options) {
     FilmPicture image(sums, header.content);
     auto& metadata = image.frame().metadata;
     metadata.insert(metadata.begin(), header.metadata.begin(), header.metadata.end());
     add_unfinished(header, image.frame());
+    if (image_format(file) == ImageFormat::png)
+        metadata.emplace_back(exposure_attribute, exposure_text(options.exposure));
     RenderReport report;
     report.misfits = write_image(file, image, options);
     if (!report.misfits.empty()) say(misfit_warning(file, options.exr, report));

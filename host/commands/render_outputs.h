@@ -28,6 +28,10 @@ std::optional<Existing> check_left_over(const RenderCommand& command, const std:
 std::vector<std::pair<std::string, MetadataValue>>
 metadata_of(const Scene& scene, const RenderReport& report, const std::string& digest);
 
+/// Of the film of a render that is opened, with nothing on it.
+FilmHeader header_of(const RenderCommand& command, const Scene& scene, const RenderKey& key,
+                     const OpenedRender& opened);
+
 /// Writes the picture of a film; its header says where samples are not all there. Says and returns
 /// what the file does not hold as it is. Throws as write_image does.
 std::vector<Misfits> write_picture(const std::string& file, const FilmHeader& header,

@@ -14,6 +14,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -127,6 +128,32 @@ std::string film_bytes(const FilmHeader& header, const FilmSums& sums) {
     std::ostringstream out;
     put_film(out, header, sums);
     return std::move(out).str();
+}
+
+std::uint64_t most_film_bytes(const FilmHeader& header) {
+    constexpr std::uint64_t growing = 16384; // samples, counts and faults of the header, as text
+    const FilmContent& content = header.content;
+    const auto width = static_cast<std::uint64_t>(content.film.crop_width);
+    const auto height = static_cast<std::uint64_t>(content.film.crop_height);
+    const std::uint64_t rows = height * static_cast<std::uint64_t>(content.channels());
+    std::uint64_t bytes = sizeof(Begin) + to_json(header).dump().size() + growing +
+                          sizeof(RowBegin) + rows * (sizeof(RowBegin) + 4 * EXACT_WORDS * width);
+    if (content.cryptomatte.layers.empty()) return bytes;
+    // Each sample meets one shape, or none, and counts for what its filter reaches.
+    const auto reach = static_cast<std::uint64_t>(2 * sample_window(content.film).reach + 1);
+    const std::uint64_t shapes = std::min<std::uint64_t>(
+        content.cryptomatte.layers[0].names.size() + 1,
+        reach * reach * static_cast<std::uint64_t>(header.samples_per_pixel));
+    return bytes + height * (sizeof(RowBegin) + sizeof(std::uint64_t) +
+                             width * shapes * sizeof(ShapeWeight));
+}
+
+bool begins_as_film(const std::string& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return false; // what is read there is gone
+    std::array<std::uint32_t, 2> begin{};
+    std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(begin.data()), sizeof begin);
+    return begin[0] == magic[0] && begin[1] == magic[1];
 }
 
 struct FilmFile::Row {

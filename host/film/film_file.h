@@ -42,6 +42,13 @@ void write_film(const std::string& file, const FilmHeader& header, const FilmSum
 /// What such a file holds, to be written later.
 std::string film_bytes(const FilmHeader& header, const FilmSums& sums);
 
+/// The most that such a file can have, in bytes, when all samples of `header` are on the film: of
+/// every sum all digits, and of a Cryptomatte as many shapes in every pixel as there may be.
+std::uint64_t most_film_bytes(const FilmHeader& header);
+
+/// Whether a file begins as a film does, whatever it is called. Pipes are not looked into: false.
+bool begins_as_film(const std::string& file);
+
 /// A film in a file; rows are read from there when they are asked for.
 class FilmFile : public FilmSums {
 public:
@@ -51,6 +58,8 @@ public:
 
     const std::string& name() const { return name_; }
     const FilmHeader& header() const { return header_; }
+    /// Of the file.
+    std::uint64_t bytes() const { return size_; }
     /// Throws InputError for a row that is damaged.
     void add_row(int channel, int y, SumRow& row) const override;
     void add_coverage(int y, ShapeWeights& row) const override;

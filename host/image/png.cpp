@@ -1,10 +1,11 @@
-// Tone mapping to 8-bit sRGB and writing through libpng.
+// Tone mapping to 8-bit sRGB.
 #include "host/image/png.h"
 
 #include "host/error.h"
+#include "host/image/png_file.h"
 #include "host/image/srgb.h"
 
-#include <png.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -78,21 +79,24 @@ void add_misfits(const Channel& channel, const Image& band, Misfits& misfits) {
                 misfits.add(band.offset_x + x, band.offset_y + y, value, false);
 }
 
+PngTexts texts_of(const Image& image) {
+    PngTexts texts;
+    texts.reserve(image.metadata.size());
+    for (const auto& [name, value] : image.metadata)
+        texts.emplace_back(name,
+                           std::visit([](const auto& v) { return fmt::format("{}", v); }, value));
+    return texts;
+}
+
 void write_bytes(const std::string& file, const Image& image,
                  const std::vector<std::uint8_t>& bytes, Existing existing) {
     PendingFile pending(file, existing);
     std::FILE* stream = std::fopen(pending.temporary_name().c_str(), "wb");
     if (!stream) throw OutputError(file + ": cannot write: " + std::strerror(errno));
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = static_cast<png_uint_32>(image.width);
-    png.height = static_cast<png_uint_32>(image.height);
-    png.format = PNG_FORMAT_RGB;
-    const bool written = png_image_write_to_stdio(&png, stream, 0, bytes.data(), 0, nullptr) != 0;
-    const std::string message = png.message;
-    png_image_free(&png);
+    const std::string message =
+        write_png_stream(stream, image.width, image.height, bytes, texts_of(image));
     const bool closed = std::fclose(stream) == 0;
-    if (!written) throw OutputError(file + ": cannot write: " + message);
+    if (!message.empty()) throw OutputError(file + ": cannot write: " + message);
     if (!closed) throw OutputError(file + ": cannot write: " + std::strerror(errno));
     pending.commit();
 }

@@ -58,6 +58,7 @@ make_package() {
         grep -qE "^$field" "$scratch/fields" || wrong "no field $field" "$scratch/fields"
     done
     for file in bin/parhelion bin/parhelion-stress share/parhelion/scenes/cornell-box/scene.xml share/man/man1/parhelion.1 \
+        share/man/man1/parhelion-stress.1 \
         share/bash-completion/completions/parhelion share/zsh/vendor-completions/_parhelion share/doc/parhelion/README.md; do
         grep -qx "/usr/$file" "$scratch/contents" || wrong "the package has no $file" "$scratch/contents"
     done

@@ -2,6 +2,7 @@
 #include "host/image/exr.h"
 #include "host/image/output.h"
 #include "host/image/png.h"
+#include "host/image/png_file.h"
 #include "host/image/srgb.h"
 #include "test_image_tools.h"
 
@@ -181,6 +182,40 @@ TEST_CASE("PNG: clipped sRGB, exposure in stops, and pixels that are not finite 
     CHECK(decode_png(folder.file("a.png"), 4, 1) ==
           std::vector<std::uint8_t>{0, 255, 255, 0, 188, 255, 255, 0, 255, 255, 0, 255});
     CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("PNG: metadata are texts of the file, without a say in its pixels") {
+    const TemporaryFolder folder;
+    Image image = make_image(2, 1);
+    add_rgb_layer(image, "", std::vector<float>{0, 0.5f, 1, 1, 0.5f, 0});
+    CHECK(write_png(folder.file("plain.png"), image).empty());
+    image.metadata = {{"scene", std::string("a/ä \u2028.xml")},
+                      {"seed", std::int64_t{4294967295}},
+                      {"exposure", -1.5},
+                      {"notes", std::string("one\ntwo")},
+                      {"empty", std::string()}};
+    CHECK(write_png(folder.file("told.png"), image).empty());
+    CHECK(decode_png(folder.file("told.png"), 2, 1) == decode_png(folder.file("plain.png"), 2, 1));
+    CHECK(png_attribute(folder.file("told.png"), "scene") == "a/ä \u2028.xml");
+    CHECK(png_attribute(folder.file("told.png"), "seed") == "4294967295");
+    CHECK(png_attribute(folder.file("told.png"), "exposure") == "-1.5");
+    CHECK(png_attribute(folder.file("told.png"), "notes") == "one\ntwo");
+    CHECK(png_attribute(folder.file("told.png"), "Seed").empty());
+    CHECK(png_attribute(folder.file("plain.png"), "seed").empty());
+    // As the PNG specification has international text: length, type, keyword and its end, no
+    // compression, no language, no translated keyword, the text, a checksum.
+    const std::vector<char> bytes = read_bytes(folder.file("told.png"));
+    const std::string all(bytes.begin(), bytes.end());
+    using namespace std::string_literals;
+    CHECK_THAT(all, Catch::Contains("\0\0\0\x13iTXtseed\0\0\0\0\0"s + "4294967295"));
+    CHECK(all.find("iTXt") < all.find("IDAT"));
+    // What is none, or cut off, has no texts.
+    write_bytes(folder.file("cut.png"), {bytes.begin(), bytes.begin() + 60});
+    CHECK(png_attribute(folder.file("cut.png"), "scene").empty());
+    write_bytes(folder.file("none.png"), {'o', 'l', 'd'});
+    CHECK(png_attribute(folder.file("none.png"), "scene").empty());
+    CHECK(png_attribute(folder.file("missing.png"), "scene").empty());
+    CHECK(png_attribute("/", "scene").empty());
 }
 
 TEST_CASE("PNG: luminance is grey, XYZ is converted, anything else is refused") {
