@@ -1,10 +1,9 @@
 // Films in files: what is read is what was written; what is damaged, cut off or of another render
 // is refused.
 #include "host/error.h"
-#include "host/film/exact_value.h"
 #include "host/film/film_parts.h"
-#include "host/numerics/exact_sum.h"
 #include "host/numerics/measure.h"
+#include "tests/support/known_film.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -17,43 +16,10 @@
 #include <unistd.h>
 
 using namespace parhelion;
+using namespace parhelion::test;
 using namespace parhelion::numerics;
 
 namespace {
-
-constexpr int width = 5, height = 3, channels = 5;
-
-/// Sums of doubles that floats hold; each kept as the film does.
-class KnownFilm : public FilmSums {
-public:
-    explicit KnownFilm(unsigned seed) {
-        Random random(seed);
-        for (auto& of_pixel : digits_) {
-            if (random.bits() % 3 == 0) continue; // nothing there
-            ExactSum sum;
-            for (int k = 0; k < 5; k++)
-                sum.add(static_cast<float>(random.sign() * random.log_between(1e-30, 1e30)));
-            of_pixel = sum.digits();
-        }
-    }
-
-    void add_row(int channel, int y, SumRow& row) const override {
-        SumRow own(width);
-        for (int x = 0; x < width; x++)
-            for (int k = 0; k < EXACT_WORDS; k++)
-                own.digit(k)[x] = digits_[(channel * height + y) * width + x][k];
-        add_digits(row, 0, width, [&](int k) { return own.digit(k).data(); });
-    }
-
-private:
-    std::vector<std::array<std::uint32_t, EXACT_WORDS>> digits_{width * height * channels};
-};
-
-double value(const FilmSums& film, int channel, int y, int x) {
-    SumRow row(width);
-    film.add_row(channel, y, row);
-    return exact_value(&row.digit(0)[x], row.width()).high;
-}
 
 FilmHeader header_of(const SampleSet& samples) {
     FilmHeader header;
