@@ -25,6 +25,10 @@ int stream_count(const WorkSplit& split, const Device& device) {
                : 1;
 }
 
+DeviceMemory memory_of(const Device& device) {
+    return {device.memory_bytes, device.max_allocation_bytes, device.is_cpu};
+}
+
 DeviceWaves compiled(RenderDevice& device, const DeviceScene& flat, const RenderOptions& options,
                      Progress& progress, RenderReport& report) {
     progress.start("compiling kernels");
@@ -102,7 +106,7 @@ OpenedRender open_on_device(const Scene& scene, RenderDevice& device, const Rend
     WorkSplit split = options.split;
     split.streams = options.checked ? 1 : stream_count(split, device.device);
     const int samples = scene.sampler.samples_per_pixel;
-    const MemoryNeed need{scene, aovs,           device.device,       report.lanes,
+    const MemoryNeed need{scene, aovs,           memory_of(device.device), report.lanes,
                           split, options.memory, options.group_memory};
     check_memory(need);
 

@@ -50,7 +50,7 @@ FilmLayout row_of_blocks(const FilmLayout& film) { return in_bands(film, 1); }
 std::uint64_t room_beside(const MemoryNeed& need, std::uint64_t scene_bytes) {
     // On a device whose memory is not the host's, the host still looks at a band at a time.
     const std::uint64_t host = resident_host_bytes() + passing_bytes;
-    const std::uint64_t device = need.device.is_cpu ? 0 : scene_bytes;
+    const std::uint64_t device = need.device.of_host ? 0 : scene_bytes;
     const std::uint64_t used = std::max(host, device);
     return need.limit > used ? need.limit - used : 0;
 }
@@ -61,7 +61,7 @@ std::vector<WorkSizes> planned_in(const MemoryNeed& need, std::uint64_t room) {
     if (need.limit > 0) planned.split.pool_paths = paths_in(need, film, room);
     const std::uint64_t pool = pool_bytes(sizes_of(planned, film, planned.split.pool_paths)),
                         for_film = room > pool ? room - pool : 0,
-                        at_once = std::min(for_film, need.device.max_allocation_bytes);
+                        at_once = std::min(for_film, need.device.buffer);
     planned.split.bands_in_turn |= film.bytes() > for_film;
     const std::size_t asked = planned.split.film_bytes;
     const FilmLayout in_room = in_bands(film, asked > 0 ? asked : at_once);
@@ -71,9 +71,8 @@ std::vector<WorkSizes> planned_in(const MemoryNeed& need, std::uint64_t room) {
 
 /// Where nothing is said, half of what there is, so that the rest of the machine has some.
 std::uint64_t room_there(const MemoryNeed& need) {
-    const bool shared = need.device.is_cpu && need.of_group > 0;
-    return (shared ? std::min(need.device.memory_bytes, need.of_group) : need.device.memory_bytes) /
-           2;
+    const bool shared = need.device.of_host && need.of_group > 0;
+    return (shared ? std::min(need.device.all, need.of_group) : need.device.all) / 2;
 }
 
 void note(Progress& progress, const MemoryNeed& need, const WorkSizes& sizes) {

@@ -2,7 +2,6 @@
 // in memory as a whole or a band at a time.
 #pragma once
 
-#include "host/cl/device.h"
 #include "host/progress.h"
 #include "host/waves/work_sizes.h"
 
@@ -10,11 +9,17 @@
 
 namespace parhelion {
 
+/// Of a device, bytes.
+struct DeviceMemory {
+    std::uint64_t all = 0, buffer = 0; ///< in all, in one buffer
+    bool of_host = false;              ///< a CPU's
+};
+
 /// A render, as far as its memory depends on it.
 struct MemoryNeed {
     const Scene& scene;
     const AovPlan& aovs;
-    const Device& device;
+    DeviceMemory device;
     int lanes = 1;
     WorkSplit split;            ///< with its streams chosen
     std::uint64_t limit = 0;    ///< bytes that host and device may have each; 0: none
