@@ -39,8 +39,8 @@ FilmLayout row_of_blocks(const FilmLayout& film) { return in_bands(film, 1); }
 
 [[noreturn]] void refuse_row(const MemoryNeed& need, const FilmLayout& film, std::uint64_t room) {
     throw InputError(fmt::format(
-        "{}: {} rows of a film of {} pixels a row and {} channels take {:.0f} MB; there is room "
-        "for {:.0f} MB (accepted: a smaller --size, or a part of it, --crop{})",
+        "{}: {} rows of a film of {} pixels a row and {} channels take {:.2f} MB; there is room "
+        "for {:.2f} MB (accepted: a smaller --size, or a part of it, --crop{})",
         need.scene.file, BLOCK_SIDE, need.scene.film.crop_width, film.channels(),
         static_cast<double>(row_of_blocks(film).bytes()) / megabyte,
         static_cast<double>(room) / megabyte, need.limit > 0 ? ", or a larger --memory" : ""));
@@ -55,18 +55,22 @@ std::uint64_t room_beside(const MemoryNeed& need, std::uint64_t scene_bytes) {
     return need.limit > used ? need.limit - used : 0;
 }
 
+/// Without a limit the room is that of the film, whatever the pool takes.
 std::vector<WorkSizes> planned_in(const MemoryNeed& need, std::uint64_t room) {
     const FilmLayout film = film_layout(need.scene, need.aovs);
-    MemoryNeed planned = need;
-    if (need.limit > 0) planned.split.pool_paths = paths_in(need, film, room);
-    const std::uint64_t pool = pool_bytes(sizes_of(planned, film, planned.split.pool_paths)),
-                        for_film = room > pool ? room - pool : 0,
-                        at_once = std::min(for_film, need.device.buffer);
-    planned.split.bands_in_turn |= film.bytes() > for_film;
-    const std::size_t asked = planned.split.film_bytes;
-    const FilmLayout in_room = in_bands(film, asked > 0 ? asked : at_once);
+    WorkSplit split = need.split;
+    std::uint64_t for_film = room;
+    if (need.limit > 0) {
+        split.pool_paths = paths_in(need, film, room);
+        const std::uint64_t pool = pool_bytes(sizes_of(need, film, split.pool_paths));
+        for_film = room > pool ? room - pool : 0;
+    }
+    const std::uint64_t at_once = std::min(for_film, need.device.buffer);
+    const FilmLayout in_room =
+        in_bands(film, split.film_bytes > 0 ? split.film_bytes : std::size_t{at_once});
     if (in_room.bytes() > at_once) refuse_row(need, film, at_once);
-    return pool_choices(in_room, need.scene.sampler.samples_per_pixel, need.lanes, planned.split);
+    split.bands_in_turn |= film.bytes() > for_film;
+    return pool_choices(in_room, need.scene.sampler.samples_per_pixel, need.lanes, split);
 }
 
 /// Where nothing is said, half of what there is, so that the rest of the machine has some.
