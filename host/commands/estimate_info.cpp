@@ -8,10 +8,12 @@
 #include "host/film/film_image.h"
 #include "host/memory_use.h"
 #include "host/render/estimate.h"
+#include "host/render/memory_plan.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace parhelion {
@@ -42,8 +44,16 @@ nlohmann::json time_json(const RenderReport& r, const RenderEstimate& e) {
             {"rendered_share", e.rendered_share}};
 }
 
-nlohmann::json memory_json(const RenderReport& r, const RenderEstimate& e) {
+/// That a whole render stays below on the host, whose pool and film, if they are there, have been
+/// allocated but not used: `begun` is what there is then. A checkpoint's copy comes to it.
+std::uint64_t most_host_bytes(const RenderReport& r, std::uint64_t begun, bool of_host) {
+    const std::uint64_t work = of_host ? r.device_pool_bytes + r.device_film_bytes : 0;
+    return std::max(peak_host_bytes(), begun + work + passing_bytes);
+}
+
+nlohmann::json memory_json(const RenderReport& r, const RenderEstimate& e, std::uint64_t most) {
     return {{"host_peak_bytes", peak_host_bytes()},
+            {"host_most_bytes", most},
             {"film_share", e.film_share},
             {"compiler_peak_bytes", r.compiler_peak_bytes},
             {"device_scene_bytes", r.device_scene_bytes},
@@ -89,8 +99,9 @@ std::string rendering_text(const nlohmann::json& time) {
 
 nlohmann::json estimate(const RenderCommand& command, const Scene& scene, double load_seconds,
                         Progress& progress) {
-    OpenedRender opened =
-        open_on_device(scene, open_device_of(command), options_of(command), progress);
+    RenderDevice& device = open_device_of(command);
+    OpenedRender opened = open_on_device(scene, device, options_of(command), progress);
+    const std::uint64_t begun = resident_host_bytes();
     opened.report.load_seconds = load_seconds;
     const FilmHeader header = header_of(command, scene, render_key(command, scene), opened);
     const nlohmann::json files{{"picture_bytes", picture_bytes(command, header.content)},
@@ -103,7 +114,8 @@ nlohmann::json estimate(const RenderCommand& command, const Scene& scene, double
     return {{"device", opened.report.device},
             {"part", header.part_name},
             {"time", time_json(opened.report, found)},
-            {"memory", memory_json(opened.report, found)},
+            {"memory", memory_json(opened.report, found,
+                                   most_host_bytes(opened.report, begun, device.device.is_cpu))},
             {"files", files}};
 }
 
@@ -119,9 +131,11 @@ void add_estimate(const nlohmann::json& estimate, InfoText& text) {
                                       megabytes(memory["device_scene_bytes"]),
                                       megabytes(memory["device_pool_bytes"]),
                                       megabytes(memory["device_film_bytes"])));
-    text.add("on host", fmt::format("{} at most so far, with {:.0f} % of the film in use",
+    text.add("on host", fmt::format("{} at most so far, with {:.0f} % of the film in use; a render "
+                                    "stays below {}",
                                     megabytes(memory["host_peak_bytes"]),
-                                    100 * memory["film_share"].get<double>()));
+                                    100 * memory["film_share"].get<double>(),
+                                    megabytes(memory["host_most_bytes"])));
     text.add("files", fmt::format("{} for the picture, uncompressed; up to {} for a checkpoint",
                                   megabytes(files["picture_bytes"]),
                                   megabytes(files["checkpoint_most_bytes"])));

@@ -14,10 +14,6 @@ namespace {
 
 constexpr double megabyte = 1 << 20;
 
-/// What is taken for a while beside pool and film: kernels that are loaded, a band of the picture
-/// while it is written (ImageRows::band_rows), what threads have by themselves.
-constexpr std::uint64_t passing_bytes = 80 << 20;
-
 constexpr int smallest_pool = 1 << 12; ///< paths
 
 /// Of a stream, for as many of a picture's samples as there are.

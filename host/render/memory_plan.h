@@ -9,6 +9,10 @@
 
 namespace parhelion {
 
+/// What is taken for a while beside pool and film: kernels that are loaded, a band of the picture
+/// while it is written (ImageRows::band_rows), what threads have by themselves.
+inline constexpr std::uint64_t passing_bytes = 80 << 20;
+
 /// Of a device, bytes.
 struct DeviceMemory {
     std::uint64_t all = 0, buffer = 0; ///< in all, in one buffer
