@@ -14,9 +14,12 @@ namespace {
 
 constexpr double megabyte = 1 << 20;
 
-/// What is taken for a while beside pool and film: kernels that are loaded, a band of the picture
-/// while it is written (ImageRows::band_rows), what threads have by themselves.
+/// What is taken for a while beside pool and film: a band of the picture while it is written
+/// (ImageRows::band_rows), what threads have by themselves.
 constexpr std::uint64_t passing_bytes = 80 << 20;
+
+/// Kernels, once they are loaded (measured: up to 16 MB).
+constexpr std::uint64_t kernel_bytes = 20 << 20;
 
 constexpr int smallest_pool = 1 << 12; ///< paths
 
@@ -27,15 +30,21 @@ WorkSizes sizes_of(const MemoryNeed& need, const FilmLayout& film, int pool_path
     return work_sizes(film, need.scene.sampler.samples_per_pixel, need.lanes, split);
 }
 
-/// As many paths as asked for, halved until they take no more than a third of the room.
+FilmLayout row_of_blocks(const FilmLayout& film) { return in_bands(film, 1); }
+
+/// As many paths as asked for, halved until they take no more than a third of the room, and leave
+/// some for a row of blocks.
 int paths_in(const MemoryNeed& need, const FilmLayout& film, std::uint64_t room) {
+    const std::uint64_t row = row_of_blocks(film).bytes();
+    const auto fit = [&](int paths) {
+        const std::uint64_t pool = pool_bytes(sizes_of(need, film, paths));
+        return pool <= room / 3 && pool + row <= room;
+    };
     int paths = need.split.pool_paths;
-    while (paths > smallest_pool && pool_bytes(sizes_of(need, film, paths)) > room / 3)
+    while (paths > smallest_pool && !fit(paths))
         paths = std::max(smallest_pool, paths / 2);
     return paths;
 }
-
-FilmLayout row_of_blocks(const FilmLayout& film) { return in_bands(film, 1); }
 
 [[noreturn]] void refuse_row(const MemoryNeed& need, const FilmLayout& film, std::uint64_t room) {
     throw InputError(fmt::format(
@@ -101,16 +110,17 @@ void check_memory(const MemoryNeed& need) {
     const int paths = std::min(smallest_pool, need.split.pool_paths);
     const std::uint64_t now = resident_host_bytes(), records = most_flattened_bytes(need.scene),
                         pool = pool_bytes(sizes_of(need, film, paths)),
-                        row = std::min(film.bytes(), row_of_blocks(film).bytes());
-    const std::uint64_t least = now + records + passing_bytes + pool + row;
+                        row = row_of_blocks(film).bytes(),
+                        passing = passing_bytes + (need.kernels_loaded ? 0 : kernel_bytes);
+    const std::uint64_t least = now + records + passing + pool + row;
     if (least <= need.limit) return;
     auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / megabyte; };
     throw InputError(fmt::format(
         "{}: needs about {:.0f} MB of memory: {:.0f} for program and scene, {:.0f} for records and "
-        "tree of the scene, {:.0f} for a small pool and a few rows of the film, {:.0f} for the "
-        "picture and the like (accepted: --memory {:.0f}M or more)",
+        "tree of the scene, {:.0f} for a small pool and a few rows of the film, {:.0f} for "
+        "kernels, the picture and the like (accepted: --memory {:.0f}M or more)",
         need.scene.file, megabytes(least), megabytes(now), megabytes(records),
-        megabytes(pool + row), megabytes(passing_bytes), megabytes(least) + 1));
+        megabytes(pool + row), megabytes(passing), megabytes(least) + 1));
 }
 
 std::vector<WorkSizes> sizes_in_memory(const MemoryNeed& need, std::uint64_t scene_bytes,

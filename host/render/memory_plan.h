@@ -21,9 +21,10 @@ struct MemoryNeed {
     const AovPlan& aovs;
     DeviceMemory device;
     int lanes = 1;
-    WorkSplit split;            ///< with its streams chosen
-    std::uint64_t limit = 0;    ///< bytes that host and device may have each; 0: none
-    std::uint64_t of_group = 0; ///< bytes that the process's control group allows; 0: no limit
+    WorkSplit split;             ///< with its streams chosen
+    std::uint64_t limit = 0;     ///< bytes that host and device may have each; 0: none
+    std::uint64_t of_group = 0;  ///< bytes that the process's control group allows; 0: no limit
+    bool kernels_loaded = false; ///< of a render before
 };
 
 /// Before the scene is made into records. Throws InputError, saying what it needs, where that is
