@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <new>
 
@@ -24,7 +25,9 @@ inline ZeroPages zero_pages(std::size_t bytes) {
 
 /// Zeros again, with no memory behind them.
 inline void forget(const ZeroPages& pages) {
-    madvise(pages.get(), pages.get_deleter().bytes, MADV_DONTNEED);
+    const std::size_t bytes = pages.get_deleter().bytes;
+    // Not of pages that are locked: those stay.
+    if (madvise(pages.get(), bytes, MADV_DONTNEED) != 0) std::memset(pages.get(), 0, bytes);
 }
 
 } // namespace parhelion

@@ -2,12 +2,14 @@
 #include "host/commands/info.h"
 
 #include "host/clock.h"
+#include "host/commands/byte_size.h"
 #include "host/commands/command_text.h"
 #include "host/commands/estimate_info.h"
 #include "host/commands/film_info.h"
 #include "host/commands/info_text.h"
 #include "host/commands/option_number.h"
 #include "host/commands/render.h"
+#include "host/commands/render_outputs.h"
 #include "host/commands/scene_check.h"
 #include "host/commands/thread_limit.h"
 #include "host/error.h"
@@ -191,6 +193,8 @@ void check_info(const InfoCommand& command) {
         throw InputError("--estimate: --check renders nothing (accepted: one of the two)");
     check_split(command.image.options);
     shard_of(command.image);
+    if (command.image.memory) parse_byte_size("--memory", *command.image.memory);
+    if (!command.image.scratch.empty()) check_scratch(command.image.scratch);
 }
 
 int run_scene_info(const InfoCommand& command) {

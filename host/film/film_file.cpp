@@ -47,6 +47,11 @@ constexpr std::uint32_t end_mark =
 
 constexpr std::uint16_t coverage_channel = 0xffff;
 
+/// Names of files need not be UTF-8, which JSON is.
+std::string text_of(const FilmHeader& header) {
+    return to_json(header).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 std::vector<std::uint32_t> words_of(const std::string& text) {
     std::vector<std::uint32_t> words((text.size() + 3) / 4);
     std::memcpy(words.data(), text.data(), text.size());
@@ -95,7 +100,7 @@ bool put_coverage(std::ostream& out, int y, const FilmSums& sums) {
 }
 
 void put_film(std::ostream& out, const FilmHeader& header, const FilmSums& sums) {
-    const std::vector<std::uint32_t> text = words_of(to_json(header).dump());
+    const std::vector<std::uint32_t> text = words_of(text_of(header));
     put(out, Begin{magic, text.size() * 4, checksum_of(text)});
     put_words(out, text);
     std::uint64_t rows = 0;
@@ -136,8 +141,8 @@ std::uint64_t most_film_bytes(const FilmHeader& header) {
     const auto width = static_cast<std::uint64_t>(content.film.crop_width);
     const auto height = static_cast<std::uint64_t>(content.film.crop_height);
     const std::uint64_t rows = height * static_cast<std::uint64_t>(content.channels());
-    std::uint64_t bytes = sizeof(Begin) + to_json(header).dump().size() + growing +
-                          sizeof(RowBegin) + rows * (sizeof(RowBegin) + 4 * EXACT_WORDS * width);
+    std::uint64_t bytes = sizeof(Begin) + text_of(header).size() + growing + sizeof(RowBegin) +
+                          rows * (sizeof(RowBegin) + 4 * EXACT_WORDS * width);
     if (content.cryptomatte.layers.empty()) return bytes;
     // Each sample meets one shape, or none, and counts for what its filter reaches.
     const auto reach = static_cast<std::uint64_t>(2 * sample_window(content.film).reach + 1);

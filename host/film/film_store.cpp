@@ -68,9 +68,10 @@ void FilmStore::add_coverage(int y, ShapeWeights& row) const {
     }
 }
 
-std::uint64_t usual_store_bytes(const FilmLayout& layout, const Film& crop) {
-    constexpr std::uint64_t digits = 3;
-    return digits * sizeof(std::uint32_t) * layout.channels() *
+std::uint64_t usual_store_bytes(const FilmLayout& layout, const Film& crop, int samples) {
+    const std::uint64_t digits = has_negative_values(crop.filter.kind) ? EXACT_WORDS : 3;
+    const std::uint64_t passes = samples > FILM_SAMPLES && samples % FILM_SAMPLES != 0 ? 2 : 1;
+    return passes * digits * sizeof(std::uint32_t) * layout.channels() *
            static_cast<std::uint64_t>(crop.crop_width) * crop.crop_height;
 }
 

@@ -38,8 +38,10 @@ private:
     std::vector<std::vector<Weights>> weights_; ///< by pixel row
 };
 
-/// What a store of a film usually takes, bytes: three digits of each sum. (Sums of one exponent
-/// have two, those of a row have exponents of their own.)
-std::uint64_t usual_store_bytes(const FilmLayout& layout, const Film& crop);
+/// What a store of a film of so many samples a pixel usually takes, bytes: three digits of each
+/// sum, of a filter that has negative values all of them (a row is kept in the digits that some
+/// pixel of it needs); twice where whole groups of samples and others are added one after the
+/// other.
+std::uint64_t usual_store_bytes(const FilmLayout& layout, const Film& crop, int samples);
 
 } // namespace parhelion

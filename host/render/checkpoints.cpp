@@ -17,7 +17,7 @@ bool Checkpoints::finish() {
     if (!writing_.valid()) return !failed_;
     try {
         writing_.get();
-        failed_ = false;
+        failed_ = false, any_ = true;
     } catch (const OutputError& e) {
         failed_ = true;
         kept_.clear();

@@ -25,7 +25,7 @@ public:
     /// Waits for the last one; whether it is there, if any was asked for.
     bool finish();
     /// Whether there is one of this render, once finish() has said so.
-    bool any() const { return !kept_.empty(); }
+    bool any() const { return any_; }
 
 private:
     void write_now(Session& session);
@@ -37,7 +37,7 @@ private:
     SampleSet kept_; ///< as far as is known
     Clock::time_point last_ = Clock::now();
     std::future<void> writing_;
-    bool failed_ = false;
+    bool failed_ = false, any_ = false;
 };
 
 } // namespace parhelion

@@ -64,15 +64,17 @@ private:
 };
 
 /// Throws OutputError for a folder whose disk has no room.
-std::unique_ptr<FilmStore> make_store(const FilmLayout& layout, const Film& crop,
+std::unique_ptr<FilmStore> make_store(const FilmLayout& layout, const Film& crop, int samples,
                                       const std::string& folder) {
-    const std::uint64_t wanted = usual_store_bytes(layout, crop), there = free_disk_bytes(folder);
+    constexpr double megabyte = 1 << 20;
+    const std::uint64_t wanted = usual_store_bytes(layout, crop, samples),
+                        there = free_disk_bytes(folder);
     if (there < wanted)
         throw OutputError(fmt::format(
-            "{}: the film is more than fits into memory and takes about {:.1f} GB of disk; here "
-            "are {:.1f} GB free (accepted: another folder, --scratch; a smaller --size; a part of "
+            "{}: the film is more than fits into memory and takes about {:.0f} MB of disk; here "
+            "are {:.0f} MB free (accepted: another folder, --scratch; a smaller --size; a part of "
             "it, --crop)",
-            folder, static_cast<double>(wanted) / 1e9, static_cast<double>(there) / 1e9));
+            folder, static_cast<double>(wanted) / megabyte, static_cast<double>(there) / megabyte));
     return std::make_unique<FilmStore>(folder, crop.crop_width, crop.crop_height,
                                        layout.channels());
 }
@@ -94,7 +96,7 @@ WorkSizes DeviceEngine::allocate(const Scene& scene, const AovPlan& aovs, bool c
     crop_ = scene.film;
     const WorkSizes& wanted = sizes.front();
     if (wanted.bands_at_once < wanted.film.bands())
-        store_ = make_store(wanted.film, crop_, scratch);
+        store_ = make_store(wanted.film, crop_, scene.sampler.samples_per_pixel, scratch);
     const auto params = [&](const WorkSizes& s) { return render_params(scene, scene_, s, aovs); };
     waves_.upload(scene_);
     sizes_ = waves_.allocate(sizes, params);

@@ -106,8 +106,14 @@ OpenedRender open_on_device(const Scene& scene, RenderDevice& device, const Rend
     WorkSplit split = options.split;
     split.streams = options.checked ? 1 : stream_count(split, device.device);
     const int samples = scene.sampler.samples_per_pixel;
-    const MemoryNeed need{scene, aovs,           memory_of(device.device), report.lanes,
-                          split, options.memory, options.group_memory};
+    const MemoryNeed need{.scene = scene,
+                          .aovs = aovs,
+                          .device = memory_of(device.device),
+                          .lanes = report.lanes,
+                          .split = split,
+                          .limit = options.memory,
+                          .of_group = options.group_memory,
+                          .kernels_loaded = !device.programs.empty()};
     check_memory(need);
 
     DeviceScene flat = flattened(scene, options.light_choice, progress, report,

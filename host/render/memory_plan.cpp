@@ -14,6 +14,9 @@ namespace {
 
 constexpr double megabyte = 1 << 20;
 
+/// Kernels, once they are loaded (measured: up to 16 MB).
+constexpr std::uint64_t kernel_bytes = 20 << 20;
+
 constexpr int smallest_pool = 1 << 12; ///< paths
 
 /// Of a stream, for as many of a picture's samples as there are.
@@ -23,15 +26,21 @@ WorkSizes sizes_of(const MemoryNeed& need, const FilmLayout& film, int pool_path
     return work_sizes(film, need.scene.sampler.samples_per_pixel, need.lanes, split);
 }
 
-/// As many paths as asked for, halved until they take no more than a third of the room.
+FilmLayout row_of_blocks(const FilmLayout& film) { return in_bands(film, 1); }
+
+/// As many paths as asked for, halved until they take no more than a third of the room, and leave
+/// some for a row of blocks.
 int paths_in(const MemoryNeed& need, const FilmLayout& film, std::uint64_t room) {
+    const std::uint64_t row = row_of_blocks(film).bytes();
+    const auto fit = [&](int paths) {
+        const std::uint64_t pool = pool_bytes(sizes_of(need, film, paths));
+        return pool <= room / 3 && pool + row <= room;
+    };
     int paths = need.split.pool_paths;
-    while (paths > smallest_pool && pool_bytes(sizes_of(need, film, paths)) > room / 3)
+    while (paths > smallest_pool && !fit(paths))
         paths = std::max(smallest_pool, paths / 2);
     return paths;
 }
-
-FilmLayout row_of_blocks(const FilmLayout& film) { return in_bands(film, 1); }
 
 [[noreturn]] void refuse_row(const MemoryNeed& need, const FilmLayout& film, std::uint64_t room) {
     throw InputError(fmt::format(
@@ -42,13 +51,19 @@ FilmLayout row_of_blocks(const FilmLayout& film) { return in_bands(film, 1); }
         static_cast<double>(room) / megabyte, need.limit > 0 ? ", or a larger --memory" : ""));
 }
 
+std::uint64_t memory_there(const MemoryNeed& need) {
+    const bool shared = need.device.of_host && need.of_group > 0;
+    return shared ? std::min(need.device.all, need.of_group) : need.device.all;
+}
+
 /// For pool and film, where both are as large as `scene_bytes` and what is in memory allow.
 std::uint64_t room_beside(const MemoryNeed& need, std::uint64_t scene_bytes) {
     // On a device whose memory is not the host's, the host still looks at a band at a time.
     const std::uint64_t host = resident_host_bytes() + passing_bytes;
     const std::uint64_t device = need.device.of_host ? 0 : scene_bytes;
     const std::uint64_t used = std::max(host, device);
-    return need.limit > used ? need.limit - used : 0;
+    const std::uint64_t limit = std::min(need.limit, memory_there(need));
+    return limit > used ? limit - used : 0;
 }
 
 /// Without a limit the room is that of the film, whatever the pool takes.
@@ -70,10 +85,7 @@ std::vector<WorkSizes> planned_in(const MemoryNeed& need, std::uint64_t room) {
 }
 
 /// Where nothing is said, half of what there is, so that the rest of the machine has some.
-std::uint64_t room_there(const MemoryNeed& need) {
-    const bool shared = need.device.of_host && need.of_group > 0;
-    return (shared ? std::min(need.device.all, need.of_group) : need.device.all) / 2;
-}
+std::uint64_t room_there(const MemoryNeed& need) { return memory_there(need) / 2; }
 
 void note(Progress& progress, const MemoryNeed& need, const WorkSizes& sizes) {
     const std::size_t pool = pool_bytes(sizes),
@@ -101,16 +113,17 @@ void check_memory(const MemoryNeed& need) {
     const int paths = std::min(smallest_pool, need.split.pool_paths);
     const std::uint64_t now = resident_host_bytes(), records = most_flattened_bytes(need.scene),
                         pool = pool_bytes(sizes_of(need, film, paths)),
-                        row = std::min(film.bytes(), row_of_blocks(film).bytes());
-    const std::uint64_t least = now + records + passing_bytes + pool + row;
+                        row = row_of_blocks(film).bytes(),
+                        passing = passing_bytes + (need.kernels_loaded ? 0 : kernel_bytes);
+    const std::uint64_t least = now + records + passing + pool + row;
     if (least <= need.limit) return;
     auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / megabyte; };
     throw InputError(fmt::format(
         "{}: needs about {:.0f} MB of memory: {:.0f} for program and scene, {:.0f} for records and "
-        "tree of the scene, {:.0f} for a small pool and a few rows of the film, {:.0f} for the "
-        "picture and the like (accepted: --memory {:.0f}M or more)",
+        "tree of the scene, {:.0f} for a small pool and a few rows of the film, {:.0f} for "
+        "kernels, the picture and the like (accepted: --memory {:.0f}M or more)",
         need.scene.file, megabytes(least), megabytes(now), megabytes(records),
-        megabytes(pool + row), megabytes(passing_bytes), megabytes(least) + 1));
+        megabytes(pool + row), megabytes(passing), megabytes(least) + 1));
 }
 
 std::vector<WorkSizes> sizes_in_memory(const MemoryNeed& need, std::uint64_t scene_bytes,

@@ -9,8 +9,8 @@
 
 namespace parhelion {
 
-/// What is taken for a while beside pool and film: kernels that are loaded, a band of the picture
-/// while it is written (ImageRows::band_rows), what threads have by themselves.
+/// What is taken for a while beside pool and film: a band of the picture while it is written
+/// (ImageRows::band_rows), what threads have by themselves.
 inline constexpr std::uint64_t passing_bytes = 80 << 20;
 
 /// Of a device, bytes.
@@ -25,9 +25,10 @@ struct MemoryNeed {
     const AovPlan& aovs;
     DeviceMemory device;
     int lanes = 1;
-    WorkSplit split;            ///< with its streams chosen
-    std::uint64_t limit = 0;    ///< bytes that host and device may have each; 0: none
-    std::uint64_t of_group = 0; ///< bytes that the process's control group allows; 0: no limit
+    WorkSplit split;             ///< with its streams chosen
+    std::uint64_t limit = 0;     ///< bytes that host and device may have each; 0: none
+    std::uint64_t of_group = 0;  ///< bytes that the process's control group allows; 0: no limit
+    bool kernels_loaded = false; ///< of a render before
 };
 
 /// Before the scene is made into records. Throws InputError, saying what it needs, where that is

@@ -23,6 +23,11 @@ struct ReconstructionFilter {
     int lanczos_lobes = 3;
 };
 
+/// Whether some of its values are below 0.
+inline bool has_negative_values(FilterKind kind) {
+    return kind != FilterKind::box && kind != FilterKind::tent && kind != FilterKind::gaussian;
+}
+
 /// How a filter wider than a pixel is applied: a sample counts for every pixel that the filter
 /// reaches, or it lies where the filter has put it and counts for one pixel alone.
 #define FILTER_METHODS(X) X(splatting) X(sampling)
