@@ -118,12 +118,13 @@ void check_memory(const MemoryNeed& need) {
     const std::uint64_t least = now + records + passing + pool + row;
     if (least <= need.limit) return;
     auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / megabyte; };
+    // With what a process that has made a few frames needs beside.
     throw InputError(fmt::format(
         "{}: needs about {:.0f} MB of memory: {:.0f} for program and scene, {:.0f} for records and "
         "tree of the scene, {:.0f} for a small pool and a few rows of the film, {:.0f} for "
         "kernels, the picture and the like (accepted: --memory {:.0f}M or more)",
         need.scene.file, megabytes(least), megabytes(now), megabytes(records),
-        megabytes(pool + row), megabytes(passing), megabytes(least) + 1));
+        megabytes(pool + row), megabytes(passing), megabytes(least + least / 16) + 1));
 }
 
 std::vector<WorkSizes> sizes_in_memory(const MemoryNeed& need, std::uint64_t scene_bytes,
