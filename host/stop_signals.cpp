@@ -41,9 +41,9 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_alw
 
 // Only what a handler may call.
 void handle(int number) {
-    int none = 0;
-    if (noting && noted.compare_exchange_strong(none, number)) {
-        noted_at = milliseconds();
+    std::int64_t never = 0; // two threads may be told at the same time
+    if (noting && noted_at.compare_exchange_strong(never, milliseconds())) {
+        noted = number;
         return;
     }
     // Who sends a signal often sends it twice: to the process and to its group, say.
@@ -55,10 +55,7 @@ void handle(int number) {
     _exit(static_cast<int>(ExitCode::stopped));
 }
 
-} // namespace
-
-void end_on_signals() {
-    noting = between = false, noted = 0;
+void handle_signals() {
     for (const StopSignal& signal : stop_signals) {
         struct sigaction before {};
         sigaction(signal.number, nullptr, &before);
@@ -70,12 +67,24 @@ void end_on_signals() {
     }
 }
 
+} // namespace
+
+void end_on_signals() {
+    noting = between = false, noted = 0, noted_at = 0;
+    handle_signals();
+}
+
 std::string end_on_signals_again() {
     between = true, noting = false; // what comes from here on ends the process
     return noted_signal();
 }
 
-void note_signals() { noting = true; }
+void note_signals() {
+    // A compiler in this process (LLVM) puts handlers of its own before these, which let a second
+    // signal end it.
+    handle_signals();
+    noting = true;
+}
 
 std::string noted_signal() {
     for (const StopSignal& signal : stop_signals)
