@@ -1,4 +1,4 @@
-// Memory of this process.
+// Memory of this process, and what the system says of memory.
 #include "host/memory_use.h"
 
 #include <fstream>
@@ -8,12 +8,8 @@
 #include <malloc.h>
 
 namespace parhelion {
-namespace {
-
-/// Of a line "KEY: NUMBER kB" that the system says of this process. (getrusage tells of what was
-/// in the process before the program, too.)
-std::uint64_t status_bytes(const std::string& key) {
-    std::ifstream in("/proc/self/status");
+std::uint64_t kilobyte_line(const char* file, const std::string& key) {
+    std::ifstream in(file);
     for (std::string line; std::getline(in, line);) {
         if (!line.starts_with(key + ":")) continue;
         std::istringstream number(line.substr(key.size() + 1));
@@ -24,13 +20,18 @@ std::uint64_t status_bytes(const std::string& key) {
     return 0;
 }
 
+namespace {
+
+// getrusage tells of what was in the process before the program, too.
+constexpr const char* own_status = "/proc/self/status";
+
 } // namespace
 
-std::uint64_t peak_host_bytes() { return status_bytes("VmHWM"); }
+std::uint64_t peak_host_bytes() { return kilobyte_line(own_status, "VmHWM"); }
 
 std::uint64_t resident_host_bytes() {
     malloc_trim(0);
-    return status_bytes("VmRSS");
+    return kilobyte_line(own_status, "VmRSS");
 }
 
 } // namespace parhelion

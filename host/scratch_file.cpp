@@ -2,6 +2,7 @@
 #include "host/scratch_file.h"
 
 #include "host/error.h"
+#include "host/read_at.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -52,14 +53,7 @@ std::uint64_t ScratchFile::append(const void* bytes, std::size_t count) {
 }
 
 void ScratchFile::read(std::uint64_t at, void* bytes, std::size_t count) const {
-    auto* to = static_cast<char*>(bytes);
-    while (count > 0) {
-        errno = 0;
-        const ssize_t got = pread(descriptor_, to, count, static_cast<off_t>(at));
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) fail("cannot be read", errno);
-        to += got, at += static_cast<std::uint64_t>(got), count -= static_cast<std::size_t>(got);
-    }
+    if (!read_at(descriptor_, at, bytes, count)) fail("cannot be read", errno);
 }
 
 std::uint64_t free_disk_bytes(const std::string& folder) {

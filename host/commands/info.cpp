@@ -16,6 +16,7 @@
 #include "host/flatten/device_scene.h"
 #include "host/flatten/kind_names.h"
 #include "host/flatten/texture_records.h"
+#include "host/image/output.h"
 #include "host/json_text.h"
 #include "host/render/report.h"
 #include "host/scene/load.h"
@@ -194,7 +195,7 @@ void check_info(const InfoCommand& command) {
     check_split(command.image.options);
     shard_of(command.image);
     if (command.image.memory) parse_byte_size("--memory", *command.image.memory);
-    if (!command.image.scratch.empty()) check_scratch(command.image.scratch);
+    if (!command.image.scratch.empty()) check_folder("--scratch", command.image.scratch);
 }
 
 int run_scene_info(const InfoCommand& command) {

@@ -1,10 +1,11 @@
 // What the machine is and what of it this process may use.
 #include "host/commands/machine.h"
 
+#include "host/memory_use.h"
+
 #include <fmt/format.h>
 
 #include <fstream>
-#include <sstream>
 
 #include <sched.h>
 #include <sys/resource.h>
@@ -41,12 +42,7 @@ int usable_processors() {
     return CPU_COUNT(&set);
 }
 
-std::uint64_t meminfo_bytes(const std::string& key) {
-    std::istringstream text(value_in("/proc/meminfo", key, ':')); // "24684044 kB"
-    std::uint64_t kilobytes = 0;
-    text >> kilobytes;
-    return kilobytes * 1024;
-}
+std::uint64_t meminfo_bytes(const std::string& key) { return kilobyte_line("/proc/meminfo", key); }
 
 std::optional<std::uint64_t> address_space() {
     rlimit limit{};
@@ -62,8 +58,8 @@ Machine this_machine() {
             .processor = value_in("/proc/cpuinfo", "model name", ':'),
             .processors = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)),
             .usable_processors = usable_processors(),
-            .memory_bytes = meminfo_bytes("MemTotal:"),
-            .free_memory_bytes = meminfo_bytes("MemAvailable:"),
+            .memory_bytes = meminfo_bytes("MemTotal"),
+            .free_memory_bytes = meminfo_bytes("MemAvailable"),
             .address_space_bytes = address_space(),
             .cgroup = cgroup_limits()};
 }

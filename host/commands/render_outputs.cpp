@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <filesystem>
 
@@ -91,14 +90,6 @@ void add_unfinished(const FilmHeader& header, Image& image) {
 
 bool writes_film(const RenderCommand& command) { return command.shard.has_value(); }
 
-void check_scratch(const std::string& folder) {
-    std::error_code error;
-    if (!std::filesystem::is_directory(folder, error))
-        throw InputError(fmt::format("--scratch: the folder {} does not exist", folder));
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        throw InputError(fmt::format("--scratch: the folder {} is not writable", folder));
-}
-
 void check_outputs(const RenderCommand& command) {
     const bool may_exist = command.force || goes_on(command) || command.skip_existing;
     const bool left = command.skip_existing && exists(command.output); // of a render like this one
@@ -106,7 +97,7 @@ void check_outputs(const RenderCommand& command) {
         check_film_output(command.output, may_exist);
     else
         check_output(command.output, may_exist);
-    if (!command.scratch.empty()) check_scratch(command.scratch);
+    if (!command.scratch.empty()) check_folder("--scratch", command.scratch);
     if (!command.stats_file.empty()) check_output_file(command.stats_file, command.force || left);
     if (!command.checkpoint.empty())
         check_output_file(command.checkpoint,

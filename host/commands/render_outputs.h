@@ -16,9 +16,6 @@ bool writes_film(const RenderCommand& command);
 /// check_left_over. Throws InputError.
 void check_outputs(const RenderCommand& command);
 
-/// Refuses a folder for scratch files that is none, or cannot be written to. Throws InputError.
-void check_scratch(const std::string& folder);
-
 /// Whether the output that is there, if there is one, may be replaced by that of the render of this
 /// digest: by --force, or because it is what such a render left when it was stopped. Nothing where
 /// a render that goes on finds its own output, whole: there is nothing to be done. Throws

@@ -4,6 +4,7 @@
 #include "host/digest.h"
 #include "host/error.h"
 #include "host/film/film_header.h"
+#include "host/read_at.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -194,13 +195,7 @@ FilmFile::~FilmFile() { ::close(descriptor_); }
 
 void FilmFile::read(std::uint64_t at, void* bytes, std::size_t count) const {
     if (at > size_ || count > size_ - at) throw InputError("it ends too early");
-    auto* to = static_cast<char*>(bytes);
-    while (count > 0) {
-        const ssize_t got = pread(descriptor_, to, count, static_cast<off_t>(at));
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) throw InputError("it cannot be read");
-        to += got, at += static_cast<std::uint64_t>(got), count -= static_cast<std::size_t>(got);
-    }
+    if (!read_at(descriptor_, at, bytes, count)) throw InputError("it cannot be read");
 }
 
 void FilmFile::read_header() {

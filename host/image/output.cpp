@@ -90,6 +90,14 @@ std::string folder_of_output(const std::string& file) {
     return folder_of(followed_links(file)).string();
 }
 
+void check_folder(const std::string& who, const std::string& folder) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error))
+        throw InputError(who + ": the folder " + folder + " does not exist");
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+        throw InputError(who + ": the folder " + folder + " is not writable");
+}
+
 void check_output_file(const std::string& file, bool force) {
     if (file == "-")
         throw InputError(
@@ -99,11 +107,7 @@ void check_output_file(const std::string& file, bool force) {
     if (fs::exists(status) && !fs::is_regular_file(status))
         throw InputError(file + ": exists and is not a regular file");
     const std::string target = followed_links(file);
-    const fs::path folder = folder_of(target);
-    if (!fs::is_directory(folder, error))
-        throw InputError(file + ": the folder " + folder.string() + " does not exist");
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        throw InputError(file + ": the folder " + folder.string() + " is not writable");
+    check_folder(file, folder_of(target).string());
     if (force) return;
     if (fs::exists(status)) throw InputError(file + ": exists; give --force to replace it");
     if (target != file)

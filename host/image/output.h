@@ -23,6 +23,9 @@ void check_output(const std::string& file, bool force);
 /// The same of a file of any extension.
 void check_output_file(const std::string& file, bool force);
 
+/// Throws InputError, naming who asks for it, for a folder that is missing or not writable.
+void check_folder(const std::string& who, const std::string& folder);
+
 /// The file that a name stands for, there or not: symbolic links followed to their end. Throws
 /// InputError for links without one.
 std::string followed_links(const std::string& file);
